@@ -232,15 +232,8 @@ impl<T: Real> Symmetric<T> {
     /// W S − S W with a spin W of the first `D` axes: the rate at which a rotation turns it.
     #[must_use]
     pub fn spun<const D: usize>(&self, spin: &Matrix<T, D>) -> Self {
-        let at = |r: usize, c: usize| {
-            let inside = r < D && c < D;
-            if inside { spin[(r, c)] } else { T::zero() }
-        };
-        Self(PLACES.map(|(r, c)| {
-            (0..3).fold(T::zero(), |sum, k| {
-                sum + at(r, k) * self.at(k, c) - self.at(r, k) * at(k, c)
-            })
-        }))
+        let rows = |r: usize| core::array::from_fn(|c| spin[(r, c)]);
+        Square::<T, D>(core::array::from_fn(rows)).spun(self)
     }
     /// The product with a vector of the first `D` axes.
     #[must_use]

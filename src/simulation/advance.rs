@@ -204,11 +204,7 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
             group.save(slot);
         }
         if let Some(state) = self.shared() {
-            let kept = &mut state.kept_impulses;
-            if kept.len() <= slot {
-                kept.resize_with(slot + 1, Default::default);
-            }
-            kept[slot].clone_from(&state.impulses);
+            state.save_impulses(slot);
         }
     }
 
@@ -216,10 +212,8 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         for group in self.groups() {
             group.load(slot);
         }
-        if let Some(state) = self.shared()
-            && let Some(kept) = state.kept_impulses.get(slot)
-        {
-            state.impulses.clone_from(kept);
+        if let Some(state) = self.shared() {
+            state.load_impulses(slot);
         }
     }
 
@@ -228,10 +222,8 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         for group in self.groups() {
             group.combine(slot, a, b, dt);
         }
-        if let Some(state) = self.shared()
-            && let Some(kept) = state.kept_impulses.get(slot)
-        {
-            state.impulses = kept.combine(a, &state.impulses, b, &rates, dt);
+        if let Some(state) = self.shared() {
+            state.combine_impulses(slot, [a, b, dt], &rates);
         }
     }
 
@@ -240,10 +232,8 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         for group in self.groups() {
             group.accumulate(slot, dt);
         }
-        if let Some(state) = self.shared()
-            && let Some(kept) = state.kept_impulses.get_mut(slot)
-        {
-            *kept = kept.combine(1.0, &rates, dt, &rates, 0.0);
+        if let Some(state) = self.shared() {
+            state.accumulate_impulses(slot, &rates, dt);
         }
     }
 

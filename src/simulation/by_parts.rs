@@ -141,7 +141,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.follow_wraps();
         let leaving = self.leave();
         self.neighborhood.choose_skin();
-        self.sort_and_list(time);
+        self.sort_and_list(time, self.neighborhood.lists.entries());
         let order = core::mem::take(&mut self.particles.moved.order);
         let Some(leaving) = leaving else {
             return;

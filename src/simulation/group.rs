@@ -338,17 +338,17 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Lets particles re-enter and leave, sorts them if that pays, and lists their neighbours.
     pub fn rebuild(&mut self, time: f64) {
         self.re_enter(time);
-        self.sort_and_list(time);
+        self.sort_and_list(time, self.neighborhood.lists.entries());
     }
 
-    /// The same of particles that have re-entered.
-    pub(super) fn sort_and_list(&mut self, time: f64) {
+    /// The same of particles that have re-entered, whose lists have so many entries.
+    pub(super) fn sort_and_list(&mut self, time: f64, entries: usize) {
         self.begin_rebuild(time);
         let held = &self.held;
         let outlets: Vec<_> = self.outlets.iter().map(|own| own.at(time)).collect();
         let removed = self.particles.remove(&outlets, |body| held.is_rigid(body));
         self.work.rates.permute(&removed);
-        let sort = self.neighborhood.wants_sort();
+        let sort = self.neighborhood.wants_sort(entries);
         let reach = self.neighborhood.reach(&self.particles);
         if sort {
             // Walls keep their shape, so sorting them once serves; structures may not.

@@ -126,13 +126,8 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         }
     }
 
-    /// Whether particles need new places in memory: only when their rows have lost their shape.
-    pub fn wants_sort(&self) -> bool {
-        self.wants_sort_of(self.lists.entries())
-    }
-
-    /// The same where lists have so many entries.
-    pub fn wants_sort_of(&self, entries: usize) -> bool {
+    /// Whether particles need new places in memory: only when their rows have lost their shape, and lists have so many entries by that.
+    pub fn wants_sort(&self, entries: usize) -> bool {
         D > 1 && entries as f64 >= UNSORTED * self.sorted_entries as f64
     }
 

@@ -73,6 +73,39 @@ impl<T: Real, const D: usize> State<T, D> {
     }
 }
 
+impl<T: Real, const D: usize> State<T, D> {
+    /// Keeps the present impulses in a slot of an integrator.
+    pub(super) fn save_impulses(&mut self, slot: usize) {
+        let kept = &mut self.kept_impulses;
+        if kept.len() <= slot {
+            kept.resize_with(slot + 1, Default::default);
+        }
+        kept[slot].clone_from(&self.impulses);
+    }
+
+    /// Brings kept impulses back.
+    pub(super) fn load_impulses(&mut self, slot: usize) {
+        if let Some(kept) = self.kept_impulses.get(slot) {
+            self.impulses.clone_from(kept);
+        }
+    }
+
+    /// a · kept + b · present + dt · rates.
+    pub(super) fn combine_impulses(&mut self, slot: usize, by: [f64; 3], rates: &Impulses) {
+        let [a, b, dt] = by;
+        if let Some(kept) = self.kept_impulses.get(slot) {
+            self.impulses = kept.combine(a, &self.impulses, b, rates, dt);
+        }
+    }
+
+    /// kept + dt · rates, which is kept then.
+    pub(super) fn accumulate_impulses(&mut self, slot: usize, rates: &Impulses, dt: f64) {
+        if let Some(kept) = self.kept_impulses.get_mut(slot) {
+            *kept = kept.combine(1.0, rates, dt, rates, 0.0);
+        }
+    }
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Keeps the state, of which a copy takes the place.
     pub(super) fn keep(&mut self) -> State<T, D> {

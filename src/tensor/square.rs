@@ -146,6 +146,19 @@ impl<L: Lane, const D: usize> Square<L, D> {
         }
         Symmetric::new(turned)
     }
+    /// W S − S W with this spin W of the first `D` axes: the rate at which a rotation turns a tensor.
+    #[inline(always)]
+    pub(crate) fn spun(&self, tensor: &Symmetric<L>) -> Symmetric<L> {
+        let at = |r: usize, c: usize| {
+            let inside = r < D && c < D;
+            if inside { self.0[r][c] } else { L::zero() }
+        };
+        Symmetric::new(super::PLACES.map(|(r, c)| {
+            (0..3).fold(L::zero(), |sum, k| {
+                sum + at(r, k) * tensor.at(k, c) - tensor.at(r, k) * at(k, c)
+            })
+        }))
+    }
     /// The sum of the diagonal.
     #[must_use]
     #[inline(always)]

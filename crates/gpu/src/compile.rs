@@ -8,7 +8,7 @@ use crate::pairs::sweep_of_run;
 use crate::{Dialect, Error, Part, Precision, emit};
 use meshfree::particles::{Fields, Outputs};
 use meshfree::scalar::Record;
-use meshfree::simulation::device::{Action, Layout, PointStep, RepeatStep, SweepStep};
+use meshfree::simulation::device::{Action, Layout, PointStep, Program, RepeatStep, SweepStep};
 use std::ops::Range;
 
 /// A piece of a list of the program.
@@ -75,6 +75,8 @@ pub struct Lists {
     pub moved: Vec<Piece>,
     pub reacts: Vec<Piece>,
     pub hold: Vec<Piece>,
+    /// What happens to the states that an integrator keeps, as `StateStep::lists` has it.
+    pub states: Vec<[Vec<Piece>; 4]>,
 }
 
 /// The sizes that do not change in a run.
@@ -279,6 +281,18 @@ impl<'a> Compiler<'a> {
         let buffers = [Array::numbers("columns").written()];
         let part = ("steps", "what has settled");
         self.device.kernel(part, (dialect, &buffers), &body)
+    }
+
+    pub fn states(&mut self, program: &Program) -> Result<Vec<[Vec<Piece>; 4]>, Error> {
+        let mut all = Vec::new();
+        for own in &program.states {
+            let mut pieces = [const { Vec::new() }; 4];
+            for (pieces, actions) in pieces.iter_mut().zip(own.lists()) {
+                *pieces = self.list(actions, false)?;
+            }
+            all.push(pieces);
+        }
+        Ok(all)
     }
 
     pub fn list(&mut self, actions: &[Action], of_approach: bool) -> Result<Vec<Piece>, Error> {

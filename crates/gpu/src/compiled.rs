@@ -102,6 +102,7 @@ impl Compiled {
             moved: own.list(&program.moved, false)?,
             reacts: own.list(&program.reacts, false)?,
             hold: own.list(&program.hold, false)?,
+            states: own.states(program)?,
         };
         let d = sizes.layout.dimensions;
         let ranges = |first: usize| {

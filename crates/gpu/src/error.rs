@@ -120,9 +120,9 @@ pub enum Error {
         /// What it must be.
         must_be: &'static str,
     },
-    /// An integrator that [says](meshfree::integrator::Integrator::slots) that it keeps no states asks for one.
+    /// An integrator asks for more states than it [says](meshfree::integrator::Integrator::slots) that it keeps.
     #[error(
-        "the integrator {name} asks for a state that it does not say it keeps; give Integrator::slots their number, and run it on the host"
+        "the integrator {name} asks for a state that it does not say it keeps; give Integrator::slots their number"
     )]
     KeptState {
         /// Its name.

@@ -8,7 +8,13 @@ use crate::run::Run;
 use meshfree::error::Error as HostError;
 use meshfree::integrator::System;
 use meshfree::scalar::Real;
-use meshfree::simulation::device::{Moment, Moved};
+use meshfree::simulation::device::{Forces, Moment, Moved, Offloaded};
+
+/// Places in `StateStep::lists`.
+const SAVE: usize = 0;
+const LOAD: usize = 1;
+const COMBINE: usize = 2;
+const ACCUMULATE: usize = 3;
 
 impl<T: Real, const D: usize> Run<T, D> {
     /// Runs the pieces of a list of all groups at a moment.
@@ -100,6 +106,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             if self.rebuild(group, moment.time)? {
                 self.meet_as_listed(group)?;
             } else {
+                self.host.leave_lists(group);
                 self.take_group(group)?;
                 self.host.rebuild(group, moment.time);
                 self.send(group, moment.time)?;
@@ -140,16 +147,8 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
     fn evaluate(&mut self, offset: f64) -> Result<(), HostError> {
         self.outcome()?;
         if self.run.kicked != 0.0 {
-            // Kicks by forces that the next evaluation writes over.
-            let run = &mut *self.run;
-            for group in &run.groups {
-                let all: Vec<_> = group.compiled.of_vote.iter().collect();
-                run.device.launch(&all);
-            }
-            match run.votes() {
-                Ok((_, forces)) => run.book(forces),
-                Err(error) => self.lost = Some(error),
-            }
+            // By forces that the next evaluation writes over.
+            self.know_forces();
         }
         let moment = self.run.host.begin_evaluation(offset)?;
         self.run.link(0, &moment);
@@ -200,18 +199,23 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
         self.act(|own| &own.lists.restore, &moment);
     }
 
-    // Integrators that keep states are refused when a simulation is loaded.
-    fn save(&mut self, _slot: usize) {
-        self.refuse_states();
+    fn save(&mut self, slot: usize) {
+        self.change_state(slot, SAVE, |host, _| host.begin_state(slot, true));
     }
-    fn load(&mut self, _slot: usize) {
-        self.refuse_states();
+    fn load(&mut self, slot: usize) {
+        self.change_state(slot, LOAD, |host, _| host.begin_state(slot, false));
     }
-    fn combine(&mut self, _slot: usize, _a: f64, _b: f64, _dt: f64) {
-        self.refuse_states();
+    fn combine(&mut self, slot: usize, a: f64, b: f64, dt: f64) {
+        self.know_forces();
+        self.change_state(slot, COMBINE, |host, forces| {
+            host.begin_combination(slot, [a, b, dt], forces)
+        });
     }
-    fn accumulate(&mut self, _slot: usize, _dt: f64) {
-        self.refuse_states();
+    fn accumulate(&mut self, slot: usize, dt: f64) {
+        self.know_forces();
+        self.change_state(slot, ACCUMULATE, |host, forces| {
+            host.begin_accumulation(slot, dt, forces)
+        });
     }
 
     fn has_rates(&self) -> bool {
@@ -220,8 +224,38 @@ impl<T: Real, const D: usize> System for Stepping<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> Stepping<'_, T, D> {
-    fn refuse_states(&mut self) {
-        let name = self.run.host.integrator().name();
-        self.lost.get_or_insert(Error::KeptState { name });
+    /// Asks for the forces between blocks of the last evaluation, unless the host has them.
+    fn know_forces(&mut self) {
+        if self.lost.is_some() || self.run.forces.is_some() {
+            return;
+        }
+        let run = &mut *self.run;
+        for group in &run.groups {
+            let all: Vec<_> = group.compiled.of_vote.iter().collect();
+            run.device.launch(&all);
+        }
+        match run.votes() {
+            Ok((_, forces)) => run.book(forces),
+            Err(error) => self.lost = Some(error),
+        }
+    }
+
+    /// Does something to a kept state.
+    fn change_state(
+        &mut self,
+        slot: usize,
+        what: usize,
+        begin: impl FnOnce(&mut Offloaded<T, D>, &[Forces<D>]) -> Moment,
+    ) {
+        let run = &mut *self.run;
+        let mut groups = run.groups.iter();
+        if !groups.all(|own| slot < own.compiled.lists.states.len()) {
+            let name = run.host.integrator().name();
+            self.lost.get_or_insert(Error::KeptState { name });
+            return;
+        }
+        let forces = run.forces.as_deref().unwrap_or_default();
+        let moment = begin(&mut run.host, forces);
+        self.act(|own| &own.lists.states[slot][what], &moment);
     }
 }

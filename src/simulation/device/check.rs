@@ -5,7 +5,7 @@ use super::{clamps, contacts, structures};
 use crate::effect::DensityForm;
 use crate::error::Problem;
 use crate::scalar::Real;
-use crate::simulation::Simulation;
+use crate::simulation::{Group, Simulation};
 
 /// What is to be done about most.
 const ON_HOST: &str = "run the scene on the host (Simulation::run_until), or leave that part out";
@@ -69,9 +69,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         for event in &self.events {
             part(true, &|| format!("the event `{}`", event.name));
         }
-        part(self.integrator.slots() > 0, &|| {
+        let keeps = self.integrator.slots() > 0;
+        let pushed = |group: &Group<T, D>| group.has_forces_of_laws() || !group.held.is_empty();
+        let pushed = state.groups.iter().any(pushed) || !state.couples.is_empty();
+        part(keeps && pushed, &|| {
             format!(
-                "the integrator {}, which keeps states",
+                "the integrator {}, which keeps states, with forces that are no pair's",
                 self.integrator.name()
             )
         });

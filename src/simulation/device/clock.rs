@@ -18,8 +18,9 @@ use crate::simulation::vote::{Criterion, Vote};
 pub struct Moment {
     /// The time \[s\].
     pub time: f64,
-    /// The two numbers that its actions start with: of most a time \[s\] over which they act, and half of it.
-    pub over: [f64; 2],
+    /// The numbers that its actions start with: of most a time \[s\] over which they act, and half of it. Of a combination with a state that
+    /// is kept the time, the shares of that and of the present state, and by how much both are more than one.
+    pub over: [f64; 4],
     /// The ends \[s\] of the drift under way, along which walls go straight.
     pub chord: Option<[f64; 2]>,
 }
@@ -28,7 +29,7 @@ impl Moment {
     fn over(time: f64, dt: f64) -> Self {
         Self {
             time,
-            over: [dt, 0.5 * dt],
+            over: [dt, 0.5 * dt, 0.0, 0.0],
             chord: None,
         }
     }
@@ -146,7 +147,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         self.simulation.state.impulses.time += dv;
         Moment {
             time: self.simulation.state.time,
-            over: [dv, da],
+            over: [dv, da, 0.0, 0.0],
             chord: None,
         }
     }
@@ -255,6 +256,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// Ends the step that [`advance`](Self::advance) has begun.
     pub fn end_step(&mut self) {
+        self.keeps_states = false;
         if let Some([vote, next]) = self.under_way.take() {
             self.simulation.close_step(vote, next);
             self.last_vote = None;

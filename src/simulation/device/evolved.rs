@@ -8,9 +8,10 @@ use super::record::{DT, Recorder, Sums, add};
 use crate::effect::gradients::{GRADIENT_SUMS, SINGULAR};
 use crate::effect::{Evolved, Update, View, When};
 use crate::particles::Field;
-use crate::scalar::{Lane, Real, Traced};
+use crate::scalar::{Lane, Real, Record, Traced};
 use crate::tensor::{Square, Symmetric};
 use crate::term::Stage;
+use std::ops::Range;
 
 /// eˣ − 1 as the host has it.
 fn expm1<L: Lane>(x: L) -> L {
@@ -31,6 +32,52 @@ fn spin<const D: usize>(numbers: &[Traced]) -> Square<Traced, D> {
     apart.scaled(Traced::of(0.5))
 }
 
+/// Records of the rates of a field, each with the places of its inputs and whether it is a growth.
+pub(super) struct FieldRates {
+    all: Vec<(Record, Range<usize>, bool)>,
+    /// Where what turns tensors starts.
+    turning: usize,
+}
+
+impl FieldRates {
+    /// The sums of growths and of sources.
+    fn sums(&self, x: &[Traced], width: usize) -> (Traced, Vec<Traced>) {
+        let mut growth = Traced::of(0.0);
+        let mut sources = vec![Traced::of(0.0); width];
+        for (record, at, is_growth) in &self.all {
+            let found = record.follow(&x[at.clone()]);
+            if *is_growth {
+                growth += found[0];
+            } else {
+                let both = sources.iter_mut().zip(found);
+                both.for_each(|(sum, own)| *sum += own);
+            }
+        }
+        (growth, sources)
+    }
+
+    /// dY/dt of a field with values `y`.
+    pub fn of<const D: usize>(&self, update: Update, y: &[Traced], x: &[Traced]) -> Vec<Traced> {
+        let (growth, mut rates) = self.sums(x, y.len());
+        // A length spans a volume.
+        let share = match update {
+            Update::Within { .. } => Traced::of(D as f64),
+            _ => Traced::of(1.0),
+        };
+        for (rate, y) in rates.iter_mut().zip(y) {
+            *rate = *y * growth / share + *rate;
+        }
+        if update == Update::Rotated {
+            let tensor = Symmetric::new(core::array::from_fn(|k| y[k]));
+            let turn = spin::<D>(&x[self.turning..]).spun(&tensor);
+            for (rate, turn) in rates.iter_mut().zip(turn.components()) {
+                *rate += *turn;
+            }
+        }
+        rates
+    }
+}
+
 impl<T: Real, const D: usize> Recorder<'_, T, D> {
     pub(super) fn evolve(&mut self, when: When) -> Vec<Action> {
         let scheme = self.group.scheme.clone();
@@ -46,11 +93,17 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         all
     }
 
-    /// A field of a body over a step as its declaration says.
-    fn update(&mut self, own: &Evolved<T, D>, body: usize) -> Option<Action> {
+    /// The rates of a field of a body in a kick or a drift, whose inputs are added to `given`; what they see as a step is given, too.
+    pub(super) fn rates(
+        &mut self,
+        own: &Evolved<T, D>,
+        body: usize,
+        when: When,
+        (step, given): (Given, &mut Vec<Given>),
+    ) -> Option<FieldRates> {
         let scheme = self.group.scheme.clone();
         let name = format!("the field `{}`", scheme.program.name_of(own.field));
-        let sums = match own.when {
+        let sums = match when {
             When::Kick => Sums {
                 of_rates: true,
                 there: scheme.sums(Stage::Rates),
@@ -64,18 +117,11 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             time: 0.0,
             dt: 1.0,
             gravity: self.group.gravity,
-            in_drift: own.when == When::Drift,
+            in_drift: when == When::Drift,
         };
         let around = around(self.group, body, acting);
         let view = View::new(&self.group.particles.columns, around);
-        let width = own.field.components(D);
-        let mut given: Vec<_> = (0..width).map(|k| Given::Field(own.field, k)).collect();
-        let residual = own.residual.filter(|field| self.has(*field));
-        if let Some(field) = residual {
-            given.extend((0..width).map(|k| Given::Field(field, k)));
-        }
-        given.push(DT);
-        let (step_at, mut rates) = (given.len() - 1, Vec::new());
+        let mut all = Vec::new();
         for rate in &own.rates {
             let Some(part) = rate.record(&view.of_rate(&**rate, own.field)) else {
                 let what = format!(
@@ -108,19 +154,9 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 given.extend((0..sum.components(D)).map(|k| sums.given(sum, k)));
             }
             given.extend(part.constants.map(Given::Constant));
-            given.extend([DT, Given::Field(own.field, 0)]);
-            rates.push((record, first..given.len(), part.growth));
+            given.extend([step, Given::Field(own.field, 0)]);
+            all.push((record, first..given.len(), part.growth));
         }
-        let mut made: Vec<_> = (0..width).map(|k| Made::Field(own.field, k)).collect();
-        if let Some(field) = residual {
-            made.extend((0..width).map(|k| Made::Field(field, k)));
-        }
-        let held = &self.group.particles.bodies[body];
-        let (run, live) = (held.run(), held.slots.clone());
-        if matches!(own.update, Update::Within { .. }) {
-            made.push(self.count(Kind::Limit(scheme.program.name_of(own.field)), live));
-        }
-        let h = around.smoothing_length;
         let turning = given.len();
         if own.update == Update::Rotated {
             let [gradient, moments] = GRADIENT_SUMS;
@@ -133,26 +169,40 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
                 given.extend(all);
             }
         }
+        Some(FieldRates { all, turning })
+    }
+
+    /// A field of a body over a step as its declaration says.
+    fn update(&mut self, own: &Evolved<T, D>, body: usize) -> Option<Action> {
+        let scheme = self.group.scheme.clone();
+        let name = format!("the field `{}`", scheme.program.name_of(own.field));
+        let width = own.field.components(D);
+        let mut given: Vec<_> = (0..width).map(|k| Given::Field(own.field, k)).collect();
+        let residual = own.residual.filter(|field| self.has(*field));
+        if let Some(field) = residual {
+            given.extend((0..width).map(|k| Given::Field(field, k)));
+        }
+        given.push(DT);
+        let step_at = given.len() - 1;
+        let rates = self.rates(own, body, own.when, (DT, &mut given))?;
+        let mut made: Vec<_> = (0..width).map(|k| Made::Field(own.field, k)).collect();
+        if let Some(field) = residual {
+            made.extend((0..width).map(|k| Made::Field(field, k)));
+        }
+        let held = &self.group.particles.bodies[body];
+        let (run, live) = (held.run(), held.slots.clone());
+        if matches!(own.update, Update::Within { .. }) {
+            made.push(self.count(Kind::Limit(scheme.program.name_of(own.field)), live));
+        }
+        let h = scheme.h_over_dx() * held.spacing;
         let step = PointStep::new(&name, &run, (given, made), |x| {
             let dt = x[step_at];
-            let mut growth = Traced::of(0.0);
-            let mut sources = vec![Traced::of(0.0); width];
-            for (record, at, is_growth) in &rates {
-                let found = record.follow(&x[at.clone()]);
-                if *is_growth {
-                    growth += found[0];
-                } else {
-                    sources
-                        .iter_mut()
-                        .zip(found)
-                        .for_each(|(sum, own)| *sum += own);
-                }
-            }
+            let (growth, mut sources) = rates.sums(x, width);
             if own.update == Update::Rotated {
                 for (source, y) in sources.iter_mut().zip(x) {
                     *source += *y * growth;
                 }
-                let spin = spin::<D>(&x[turning..]);
+                let spin = spin::<D>(&x[rates.turning..]);
                 let of = |numbers: &[Traced]| Symmetric::new(core::array::from_fn(|k| numbers[k]));
                 let moved = of(&x[..width]).plus(dt, &of(&sources));
                 let turn = Square::rotation(&spin.scaled(dt));

@@ -141,7 +141,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         group.neighborhood.choose_skin();
         group.begin_rebuild(time);
         group.neighborhood.served = 1;
-        group.neighborhood.wants_sort_of(own.entries)
+        group.neighborhood.wants_sort(own.entries)
     }
 
     /// Notes that slot k of a group has the particle that slot `order[k]` had.
@@ -157,6 +157,11 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             let near = &mut self.simulation.state.groups[group].neighborhood;
             near.sorted_entries = entries;
         }
+    }
+
+    /// Leaves the lists of the device, of which the host makes none, since it [builds](Self::rebuild) others next.
+    pub fn leave_lists(&mut self, group: usize) {
+        self.recorded[group].is_listed_there = false;
     }
 
     /// Lists neighbours for the places for which the device has listed them, if the host has not.

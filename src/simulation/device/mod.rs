@@ -19,6 +19,7 @@ mod partners;
 mod program;
 mod record;
 mod state;
+mod states;
 mod structures;
 mod transfer;
 mod vote;
@@ -28,7 +29,8 @@ pub use contacts::{ContactSide, ContactStep, PairStep, Summed};
 pub use lists::{Bounds, CellGrid, Search};
 pub use partners::Partners;
 pub use program::{
-    Action, Counted, FollowStep, Given, KeepStep, Made, PointStep, Program, RepeatStep, SweepStep,
+    Action, Counted, FollowStep, Given, KeepStep, Made, PointStep, Program, RepeatStep, StateStep,
+    SweepStep,
 };
 pub use state::{Forces, Moved};
 pub use transfer::{Array, Layout, Numbers};
@@ -66,8 +68,9 @@ pub struct Offloaded<T: Real, const D: usize> {
     contacts: Vec<ContactStep>,
     /// What the last vote asks for.
     last_vote: Option<Vote>,
-    /// Whether a prediction is under way.
+    /// Whether a prediction is under way, and whether an integrator keeps states in this step.
     is_predicted: bool,
+    keeps_states: bool,
     /// The step under way, and the one that it is cut from.
     under_way: Option<[Vote; 2]>,
     /// The state after the last step while a copy steps for a reading, and its vote.
@@ -88,7 +91,7 @@ struct Recorded {
     kept: Fields,
     /// Counts that the host has had, of the columns on the device.
     counted: Vec<u64>,
-    /// Entries of the lists that the device has built, and whether the host has others.
+    /// Entries of the lists of the device, and whether the host has others.
     entries: usize,
     is_listed_there: bool,
     /// The acceleration that pairs on the device were told of; none if not yet.
@@ -117,6 +120,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             contacts: Vec::new(),
             last_vote: None,
             is_predicted: false,
+            keeps_states: false,
             under_way: None,
             last_step: None,
         };
@@ -135,6 +139,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let mut recorder = Recorder::new(&groups[number], is_pushed);
                 recorder.all(&control);
                 recorder.book_laws();
+                recorder.states(own.simulation.integrator.slots());
                 sides.extend(contacts::sides_of(&own.simulation, &mut recorder, number));
                 recorder.clamps();
                 recorder.structures(groups);

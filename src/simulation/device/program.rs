@@ -279,6 +279,29 @@ pub struct Counted {
     pub slots: Range<usize>,
 }
 
+/// What happens to a state that an integrator keeps.
+#[derive(Clone, Debug, Default)]
+pub struct StateStep {
+    /// The first of its columns, which has the first component of the first field of the [state](Program::state).
+    pub first: usize,
+    /// The present state is kept.
+    pub save: Vec<Action>,
+    /// It is brought back.
+    pub load: Vec<Action>,
+    /// The present state becomes its share of itself and of the kept one, and rates over a time.
+    pub combine: Vec<Action>,
+    /// Rates over a time are added to the kept state.
+    pub accumulate: Vec<Action>,
+}
+
+impl StateStep {
+    /// All that happens to it.
+    #[must_use]
+    pub fn lists(&self) -> [&Vec<Action>; 4] {
+        [&self.save, &self.load, &self.combine, &self.accumulate]
+    }
+}
+
 /// What is counted.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
@@ -298,6 +321,7 @@ pub(super) enum Kind {
 /// | [`shift`](Self::shift) | places change by velocity and acceleration | of `shift` |
 /// | [`predict`](Self::predict) | what a kick changes is saved, and predicted | of `kick` |
 /// | [`restore`](Self::restore) | it is taken back | any |
+/// | [`states`](Self::states) | an integrator keeps the state, and combines it with the present one | of `state`, `combination` and `accumulation` |
 /// | [`vote`](Self::vote), [`approach`](Self::approach) | before a step | of `vote` |
 /// | [`moved`](Self::moved) | where lists may be outdated | of the evaluation or drift |
 /// | [`follows`](Self::follows), [`reacts`](Self::reacts), [`hold`](Self::hold) | before and after evaluations of all groups | of `evaluation` |
@@ -319,6 +343,10 @@ pub struct Program {
     pub predict: Vec<Action>,
     /// The end of it.
     pub restore: Vec<Action>,
+    /// The states that an integrator keeps.
+    pub states: Vec<StateStep>,
+    /// The fields of these states, as their columns stand.
+    pub state: Vec<Field>,
     /// Of every particle its largest stable step \[s\], negative where its state is broken, the number of its criterion, the square of
     /// its speed, its velocity and its smoothing length.
     pub vote: Vec<Action>,
@@ -375,6 +403,7 @@ impl Program {
             &self.hold,
         ]
         .into_iter()
+        .chain(self.states.iter().flat_map(StateStep::lists))
         .flatten()
     }
 }

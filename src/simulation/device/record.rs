@@ -18,32 +18,34 @@ use std::ops::Range;
 /// Places of [`Offloaded::shared`](super::Offloaded::shared).
 pub(super) const DT: Given = Given::Shared(0);
 pub(super) const HALF: Given = Given::Shared(1);
+/// Of a combination the shares of a kept state and of the present one, and by how much both are more than one.
+pub(super) const SHARES: [Given; 3] = [Given::Shared(1), Given::Shared(2), Given::Shared(3)];
 /// Gravity now, and at the last evaluation.
 pub(super) const fn gravity(d: usize) -> Given {
-    Given::Shared(2 + d)
+    Given::Shared(4 + d)
 }
 pub(super) const fn evaluated<const D: usize>(d: usize) -> Given {
-    Given::Shared(2 + D + d)
+    Given::Shared(4 + D + d)
 }
 /// The least and the largest component of all velocities.
 pub(super) const fn range<const D: usize>(k: usize) -> Given {
-    Given::Shared(2 + 2 * D + k)
+    Given::Shared(4 + 2 * D + k)
 }
 /// The least smoothing length.
 pub(super) const fn least_length<const D: usize>() -> Given {
-    Given::Shared(2 + 4 * D)
+    Given::Shared(4 + 4 * D)
 }
 /// How far a container has gone since lists were built.
 pub(super) const fn carried<const D: usize>(d: usize) -> Given {
-    Given::Shared(3 + 4 * D + d)
+    Given::Shared(5 + 4 * D + d)
 }
 /// The time since smoothing lengths were found, its inverse, and whether there is any, where lengths follow the density.
 pub(super) const fn since_lengths<const D: usize>(k: usize) -> Given {
-    Given::Shared(3 + 5 * D + k)
+    Given::Shared(5 + 5 * D + k)
 }
 /// How many there are in any scene.
 const fn common<const D: usize>() -> usize {
-    3 + 5 * D
+    5 + 5 * D
 }
 /// The recorder of a group.
 pub(super) struct Recorder<'a, T: Real, const D: usize> {

@@ -7,7 +7,7 @@ use crate::neighbors::{Block, ChunkList};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::{Real, width};
 use crate::scheme::EnergyForm;
-use crate::simulation::Group;
+use crate::simulation::{Group, Simulation};
 use crate::sweep::{Interaction, Reaction, Records, Results};
 use crate::term::Stage;
 
@@ -130,6 +130,15 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// Books what forces \[N\] between blocks give in kicks over `dt` \[s\], group by group.
     pub fn book(&mut self, dt: f64, forces: &[Forces<D>]) {
+        self.with_forces(forces, |own| own.record_kick(None, dt));
+    }
+
+    /// Acts on the simulation as if forces \[N\] between blocks came with its rates, group by group.
+    pub(super) fn with_forces<V>(
+        &mut self,
+        forces: &[Forces<D>],
+        act: impl FnOnce(&mut Simulation<T, D>) -> V,
+    ) -> V {
         let mut kept = Vec::new();
         for (group, forces) in self.simulation.state.groups.iter_mut().zip(forces) {
             let outputs = group.work.rates.outputs();
@@ -150,7 +159,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let forces: Vec<_> = couples
             .map(|own| core::mem::take(&mut own.acting.forces))
             .collect();
-        self.simulation.record_kick(None, dt);
+        let given = act(&mut self.simulation);
         for (group, forces) in self.simulation.state.groups.iter_mut().zip(of_laws) {
             *group.particles.columns.column_mut(Field::FORCE) = forces;
         }
@@ -160,6 +169,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         for (group, kept) in self.simulation.state.groups.iter_mut().zip(kept) {
             (group.work.rates, group.work.coupling, group.held.clamps) = kept;
         }
+        given
     }
 
     /// What a prediction has saved.
@@ -309,7 +319,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     pub fn rebuild(&mut self, number: usize, time: f64) {
         let group = &mut self.simulation.state.groups[number];
         group.neighborhood.choose_skin();
-        group.rebuild(time);
+        group.re_enter(time);
+        group.sort_and_list(time, self.recorded[number].entries);
         group.neighborhood.served = 1;
         self.simulation.follow_moves(number);
     }

@@ -121,6 +121,10 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let own = &mut self.recorded[group];
         own.counted.fill(0);
         own.body_force.clear();
+        own.entries = self.simulation.state.groups[group]
+            .neighborhood
+            .lists
+            .entries();
         let own = &self.recorded[group];
         let (program, slots) = (&own.program, own.layout.slots);
         let mut all = vec![(Array::State, 0, self.state(group))];
@@ -135,6 +139,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         if let Some(first) = program.held {
             all.push((Array::Columns, first * slots, self.held(group)));
         }
+        all.extend(self.states_sent(group));
         all.push((Array::Walls, 0, self.walls(group, time)));
         all.push((Array::Kept, 0, self.kept(group)));
         let of = |(array, at, numbers)| Numbers { array, at, numbers };
@@ -301,6 +306,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         all.extend(given);
         let given = program.given;
         all.extend(given.map(|first| (Array::Columns, first * slots, (D + 1) * slots)));
+        all.extend(self.states_wanted(group));
         all.extend(self.contacts_wanted(group));
         if !program.follows.is_empty() {
             all.push((Array::Walls, 0, D * (slots - layout.mobile)));
@@ -351,6 +357,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
                 numbers: vec![0.0; (D + 1) * slots],
             });
         }
+        let states: Vec<_> = self.states_wanted(group).iter().map(|_| next()).collect();
+        self.take_states(group, &states);
         rest.extend(self.contacts_taken(group, &mut next));
         if !program.follows.is_empty() {
             self.take_walls(group, next());

@@ -5,10 +5,6 @@ use super::laws::material;
 use meshfree::coupling::{ContactDensity, Coupling, LiquidStructure, Penalty, Tied};
 use meshfree::effect::DensityForm;
 use meshfree::effect::parts::{PointRecord, point_records};
-use meshfree::integrator::{
-    DriftKickDrift, Integrator, KickDriftKick, LamLeapfrog, Midpoint, PositionVerlet, RungeKutta4,
-    StrongStabilityPreserving3,
-};
 use meshfree::material::eos::EquationOfState;
 use meshfree::particles::Fields;
 use meshfree::scalar::Record;
@@ -72,18 +68,6 @@ fn others(rows: &mut Vec<Row>) {
         })* };
     }
     meshfree::for_each_eos!(laws);
-    let integrators: [&dyn Integrator; 7] = [
-        &KickDriftKick,
-        &DriftKickDrift,
-        &PositionVerlet,
-        &Midpoint,
-        &StrongStabilityPreserving3,
-        &RungeKutta4,
-        &LamLeapfrog::default(),
-    ];
-    for own in integrators.iter().filter(|own| own.slots() > 0) {
-        rows.push((format!("integrator {}", own.name()), "keeps states".into()));
-    }
     let couplings: [&dyn Coupling<f64, 2>; 6] = [
         &ContactDensity::new(),
         &Penalty::new(),

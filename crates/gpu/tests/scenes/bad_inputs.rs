@@ -245,10 +245,14 @@ fn water() -> Scene<f64, 2> {
 }
 
 fn rods() -> Scene<f64, 1> {
+    rods_with(EnergyForm::Compatible)
+}
+
+fn rods_with(energy: EnergyForm) -> Scene<f64, 1> {
     let rod = |name: &str, low: f64| {
         Body::block(name, catalogue::copper::<f64>(), [low], [low + 0.01], 2e-4)
     };
-    let scene = Scene::new(schemes::impact());
+    let scene = Scene::new(schemes::impact().energy(energy));
     scene.body(rod("left", 0.0)).body(rod("right", 0.0102))
 }
 
@@ -312,8 +316,10 @@ fn scenes(tried: &mut Tried, device: &Device) {
         Scene::<f64, 1>::new(schemes::lam2002()).body(rod)
     };
     tried.load(device, "density by Lam", rod());
-    tried.load(device, "which keeps states", rod().integrator(RungeKutta4));
-    tried.load(device, "which keeps states", rod().integrator(Midpoint));
+    let kept = "which keeps states, with forces that are no pair's";
+    let meet = || rods_with(EnergyForm::Symmetric).couple("left", "right", Penalty::new());
+    tried.load(device, kept, meet().integrator(RungeKutta4));
+    tried.load(device, kept, meet().integrator(Midpoint));
     let mut kept = build(water());
     kept.keep_energy();
     tried.loaded(device, "the energy ledger", kept);

@@ -15,4 +15,5 @@ mod kinds;
 mod liquids;
 #[path = "../common/neighbours.rs"]
 mod neighbours;
+mod states;
 mod sweeps;

@@ -78,9 +78,14 @@ fn solids_are_refused_by_what_they_have() {
         .rigid("right")
         .couple("left", "right", Penalty::new());
     refused(stiff, &["the rigid body `right`"]);
-    let kept = Scene::<f64, 1>::new(schemes::lam2002()).body(rod("rod", 0.0));
-    let kept = kept.integrator(RungeKutta4);
-    refused(kept, &["the integrator rk4, which keeps states"]);
+    let scheme = schemes::impact().energy(EnergyForm::Symmetric);
+    let kept = Scene::<f64, 1>::new(scheme).body(rod("left", 0.0));
+    let kept = kept.body(rod("right", 0.01)).integrator(RungeKutta4);
+    let kept = kept.couple("left", "right", Penalty::new());
+    refused(
+        kept,
+        &["the integrator rk4, which keeps states, with forces"],
+    );
     refused(
         Scene::new(schemes::lam2002()).body(rod("rod", 0.0)),
         &["density by Lam et al."],
