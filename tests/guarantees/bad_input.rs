@@ -424,7 +424,10 @@ fn parts_that_do_not_fit() {
     let elastic = Scene::<f64, 1>::new(by_continuity().with(Hypoelastic)).body(elastic);
     let found = refused(elastic.integrator(RungeKutta4));
     let told = |what: &str| found.iter().any(|own| own.to_string().contains(what));
-    assert!(told("sums the rate of deviatoric_stress in drifts"), "{found:?}");
+    assert!(
+        told("sums the rate of deviatoric_stress in drifts"),
+        "{found:?}"
+    );
     let hot =
         Scene::<f64, 1>::new(schemes::impact().energy(EnergyForm::None)).body(rod().energy(1.0));
     incompatible(&problem(hot), "starts with internal energy", "energy form");

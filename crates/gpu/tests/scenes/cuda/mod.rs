@@ -3,7 +3,7 @@
 
 mod scenes;
 
-use self::scenes::{bars, bent, blast, layers, plate, tank};
+use self::scenes::{bars, bent, blast, kept_blast, layers, plate, tank};
 use meshfree::effect::{Damage, FiniteStrainPlasticity, Shifting, TwoPhase};
 use meshfree::prelude::*;
 use meshfree::term::LaminarViscosity;
@@ -113,6 +113,11 @@ compile!(
     (f32, 3): schemes::riemann_liquid().with(ExpansionMemory),
 );
 compile!(gases: blast, (f64, 3): schemes::gas(), (f32, 3): schemes::gas());
+compile!(
+    states_that_are_kept: kept_blast,
+    (f64, 3): schemes::gas().energy(EnergyForm::Symmetric),
+    (f32, 3): schemes::gas().energy(EnergyForm::Symmetric),
+);
 compile!(impacts: bars, (f64, 3): schemes::impact(), (f32, 3): schemes::impact());
 compile!(
     solids_by_present_neighbours: bars,

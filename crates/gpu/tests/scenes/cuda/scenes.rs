@@ -1,6 +1,7 @@
 //! Small scenes of each kind that runs on a device; what is compiled of them does not depend on their size.
 //! Schemes come from outside, so that each has the effects that its precision runs.
 
+use meshfree::integrator::StrongStabilityPreserving3;
 use meshfree::material::eos::{IdealGas, Linear};
 use meshfree::material::failure::JohnsonCookFailure;
 use meshfree::material::strength::{JohnsonCook, PlasticHeating};
@@ -77,6 +78,11 @@ pub fn blast<T: Real, const D: usize>(scheme: impl Into<Scheme<T, D>>) -> Scene<
         .body(gas)
         .boundary(MirrorPlane::symmetry([0.0; D], first(-1.0, 0.0)))
         .boundary(MirrorPlane::symmetry([0.5; D], first(1.0, 0.0)))
+}
+
+/// The same by an integrator that keeps states.
+pub fn kept_blast<T: Real, const D: usize>(scheme: impl Into<Scheme<T, D>>) -> Scene<T, D> {
+    blast(scheme).integrator(StrongStabilityPreserving3)
 }
 
 /// Two bars of copper that meet, one of them at a rigid plane.
