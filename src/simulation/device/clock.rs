@@ -18,9 +18,10 @@ use crate::simulation::vote::{Criterion, Vote};
 pub struct Moment {
     /// The time \[s\].
     pub time: f64,
-    /// The numbers that its actions start with: of most a time \[s\] over which they act, and half of it. Of a combination with a state that
-    /// is kept the time, the shares of that and of the present state, and by how much both are more than one.
-    pub over: [f64; 4],
+    /// The two numbers that its actions start with: of most a time \[s\] over which they act, and half of it.
+    pub over: [f64; 2],
+    /// Of a combination with a state that is kept the shares of that and of the present one, and by how much both are more than one.
+    pub shares: [f64; 3],
     /// The ends \[s\] of the drift under way, along which walls go straight.
     pub chord: Option<[f64; 2]>,
 }
@@ -29,7 +30,8 @@ impl Moment {
     fn over(time: f64, dt: f64) -> Self {
         Self {
             time,
-            over: [dt, 0.5 * dt, 0.0, 0.0],
+            over: [dt, 0.5 * dt],
+            shares: [0.0; 3],
             chord: None,
         }
     }
@@ -146,9 +148,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     pub fn begin_shift(&mut self, dv: f64, da: f64) -> Moment {
         self.simulation.state.impulses.time += dv;
         Moment {
-            time: self.simulation.state.time,
-            over: [dv, da, 0.0, 0.0],
-            chord: None,
+            over: [dv, da],
+            ..Moment::over(self.simulation.state.time, dv)
         }
     }
 
@@ -170,6 +171,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         all.extend(group.carried_since_listed(moment.time));
         if matches!(group.scheme.smoothing, Smoothing::Consistent(_)) {
             all.extend(recorded.since_lengths);
+        }
+        if self.simulation.integrator.slots() > 0 {
+            all.extend(moment.shares);
         }
         for own in &recorded.timed {
             let law = &group.scheme.program.laws[own.stage.number()][own.law];

@@ -136,10 +136,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 let control: StepControl = own.control_of_vote(number);
                 let groups = &own.simulation.state.groups;
                 let is_pushed = contacts::push(&own.simulation, number);
-                let mut recorder = Recorder::new(&groups[number], is_pushed);
+                let states = own.simulation.integrator.slots();
+                let mut recorder = Recorder::new(&groups[number], is_pushed, states);
                 recorder.all(&control);
                 recorder.book_laws();
-                recorder.states(own.simulation.integrator.slots());
+                recorder.keep_states();
                 sides.extend(contacts::sides_of(&own.simulation, &mut recorder, number));
                 recorder.clamps();
                 recorder.structures(groups);

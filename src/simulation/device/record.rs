@@ -18,34 +18,32 @@ use std::ops::Range;
 /// Places of [`Offloaded::shared`](super::Offloaded::shared).
 pub(super) const DT: Given = Given::Shared(0);
 pub(super) const HALF: Given = Given::Shared(1);
-/// Of a combination the shares of a kept state and of the present one, and by how much both are more than one.
-pub(super) const SHARES: [Given; 3] = [Given::Shared(1), Given::Shared(2), Given::Shared(3)];
 /// Gravity now, and at the last evaluation.
 pub(super) const fn gravity(d: usize) -> Given {
-    Given::Shared(4 + d)
+    Given::Shared(2 + d)
 }
 pub(super) const fn evaluated<const D: usize>(d: usize) -> Given {
-    Given::Shared(4 + D + d)
+    Given::Shared(2 + D + d)
 }
 /// The least and the largest component of all velocities.
 pub(super) const fn range<const D: usize>(k: usize) -> Given {
-    Given::Shared(4 + 2 * D + k)
+    Given::Shared(2 + 2 * D + k)
 }
 /// The least smoothing length.
 pub(super) const fn least_length<const D: usize>() -> Given {
-    Given::Shared(4 + 4 * D)
+    Given::Shared(2 + 4 * D)
 }
 /// How far a container has gone since lists were built.
 pub(super) const fn carried<const D: usize>(d: usize) -> Given {
-    Given::Shared(5 + 4 * D + d)
+    Given::Shared(3 + 4 * D + d)
 }
 /// The time since smoothing lengths were found, its inverse, and whether there is any, where lengths follow the density.
 pub(super) const fn since_lengths<const D: usize>(k: usize) -> Given {
-    Given::Shared(5 + 5 * D + k)
+    Given::Shared(3 + 5 * D + k)
 }
 /// How many there are in any scene.
 const fn common<const D: usize>() -> usize {
-    5 + 5 * D
+    3 + 5 * D
 }
 /// The recorder of a group.
 pub(super) struct Recorder<'a, T: Real, const D: usize> {
@@ -57,6 +55,8 @@ pub(super) struct Recorder<'a, T: Real, const D: usize> {
     pub(super) in_drift: bool,
     /// How many actions of a kick are of its work, and come before velocities change.
     pub(super) of_work: usize,
+    /// How many states the integrator keeps.
+    pub(super) states: usize,
 }
 
 /// Where sums of an entry are.
@@ -89,8 +89,8 @@ pub(super) fn add(y: Traced, lost: Option<Traced>, change: Traced) -> (Traced, O
     }
 }
 impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
-    /// Of a group, on whose particles couplings by forces may act.
-    pub fn new(group: &'a Group<T, D>, is_pushed: bool) -> Self {
+    /// Of a group, on whose particles couplings by forces may act, under an integrator that keeps so many states.
+    pub fn new(group: &'a Group<T, D>, is_pushed: bool, states: usize) -> Self {
         let mut own = Self {
             group,
             program: Program::default(),
@@ -98,6 +98,7 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
             problems: Vec::new(),
             in_drift: false,
             of_work: 0,
+            states,
         };
         let further = own.further_columns();
         let others = is_pushed
@@ -110,10 +111,20 @@ impl<'a, T: Real, const D: usize> Recorder<'a, T, D> {
         own
     }
 
+    fn place_of_shares(&self) -> usize {
+        let follows = matches!(self.group.scheme.smoothing, Smoothing::Consistent(_));
+        common::<D>() + 3 * usize::from(follows)
+    }
+
+    /// [What](super::Moment::shares) a combination is made by.
+    pub(super) fn shares(&self) -> [Given; 3] {
+        [0, 1, 2].map(|k| Given::Shared(self.place_of_shares() + k))
+    }
+
     /// Where the numbers of the next law start among the shared ones.
     pub(super) fn place_of_timed(&self) -> usize {
-        let follows = matches!(self.group.scheme.smoothing, Smoothing::Consistent(_));
-        common::<D>() + 3 * usize::from(follows) + 5 * self.timed.len()
+        let shares = 3 * usize::from(self.states > 0);
+        self.place_of_shares() + shares + 5 * self.timed.len()
     }
 
     fn there(&self) -> Fields {

@@ -3,7 +3,7 @@
 
 use super::clock::Moment;
 use super::program::{Action, Given, Made, PointStep, StateStep};
-use super::record::{DT, Recorder, SHARES, add, evaluated};
+use super::record::{DT, Recorder, add, evaluated};
 use super::state::Forces;
 use super::transfer::Array;
 use super::{Offloaded, Recorded};
@@ -20,8 +20,8 @@ use std::ops::Range;
 type Kept<'a> = &'a dyn Fn(Field, usize) -> usize;
 
 impl<T: Real, const D: usize> Recorder<'_, T, D> {
-    /// What an integrator does that keeps so many states.
-    pub(super) fn states(&mut self, count: usize) {
+    /// What an integrator does to the states that it keeps.
+    pub(super) fn keep_states(&mut self) {
         let scheme = self.group.scheme.clone();
         let fields: Vec<Field> = state(&scheme.program).collect();
         let fields: Vec<Field> = fields.into_iter().filter(|own| self.has(*own)).collect();
@@ -29,7 +29,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             .iter()
             .flat_map(|&field| (0..field.components(D)).map(move |k| (field, k)))
             .collect();
-        for _ in 0..count {
+        for _ in 0..self.states {
             let first = self.program.columns;
             self.program.columns += numbers.len();
             let present = || numbers.iter().copied();
@@ -108,7 +108,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         let before = numbers
             .iter()
             .map(|&(field, k)| Given::Column(kept(field, k)));
-        let given = present.chain(before).chain([DT]).chain(SHARES);
+        let given = present.chain(before).chain([DT]).chain(self.shares());
         let given = given.chain(further).collect();
         let made = numbers.iter().map(|&(field, k)| {
             if combines {
@@ -175,7 +175,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let state = &mut self.simulation.state;
         state.combine_impulses(slot, [a, b, dt], &rates);
         Moment {
-            over: [dt, a, b, a + b - 1.0],
+            shares: [a, b, a + b - 1.0],
             ..self.begin_kick(dt)
         }
     }
