@@ -431,7 +431,8 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         let strike = |clock: &mut Clock| clock.strikes(now, moment, is_end);
         let struck: Vec<bool> = clocks.iter_mut().map(strike).collect();
         if struck.contains(&true) {
-            self.simulation.bring_together();
+            // Also of a clone, which steps by itself.
+            self.simulation.end_parts();
         }
         let now = &*self.simulation;
         for (observer, is_due) in self.observers.iter_mut().zip(struck) {

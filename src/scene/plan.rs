@@ -271,7 +271,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             slots,
             end,
             rest: wall.points.iter().map(|x| local(x, origin)).collect(),
-            normals,
+            normals: normals.into(),
             motion: wall.motion.as_ref().map(|own| motion_from(own, origin)),
             inflow: None,
             slip: wall.slip,

@@ -3,7 +3,9 @@
 
 use super::Simulation;
 use super::group::Group;
+use super::own_group::Lists;
 use super::part::Part;
+use super::run_state::State;
 use super::settle::PIECE;
 use super::vote::{Criterion, NO_VOTE, Vote};
 use crate::collective::{Corners, Join};
@@ -35,7 +37,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Whether ranks have their own particles alone.
     pub(super) fn is_parted(&self) -> bool {
-        self.state.groups.iter().any(|group| group.all.is_some())
+        self.state.is_parted()
     }
 
     /// Leaves each rank its own particles before a step, where nothing in the scene looks at others than neighbours.
@@ -53,11 +55,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if !self.is_parted() {
             return;
         }
-        once!(self => &mut Simulation, |own| -> () {
-            for group in &mut own.state.groups {
-                group.bring_together(false);
-            }
-        });
+        once!(self => &mut Simulation, |own| -> () { own.state.bring_together(None) });
+    }
+
+    /// Adds up what ranks have counted, so that each can say what all have done.
+    pub(super) fn join_counts(&mut self) {
+        for group in &mut self.state.groups {
+            group.join_counts();
+        }
     }
 
     /// Whether a step of this scene needs a particle, its neighbours, and what is joined over all. Not so of couplings, joints, rigid
@@ -83,6 +88,31 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 vote(self)
             }
             found => found,
+        }
+    }
+}
+
+impl<T: Real, const D: usize> State<T, D> {
+    /// Whether ranks have their own particles alone.
+    pub(super) fn is_parted(&self) -> bool {
+        self.groups.iter().any(|group| group.all.is_some())
+    }
+
+    /// Brings all particles together again. Lists that are those of another state too, of which this one is a copy, stay there.
+    pub(super) fn bring_together(&mut self, other: Option<&Self>) {
+        for (k, own) in self.groups.iter_mut().enumerate() {
+            let other = other.map(|other| &other.groups[k].neighborhood.lists);
+            own.bring_together(match other {
+                Some(lists) if Arc::ptr_eq(lists, &own.neighborhood.lists) => Lists::Elsewhere,
+                _ => Lists::Kept,
+            });
+        }
+    }
+
+    /// Takes lists up that were left to a state, of all particles.
+    pub(super) fn take_lists(&mut self, last: &Self) {
+        for (own, last) in self.groups.iter_mut().zip(&last.groups) {
+            own.take_lists(last);
         }
     }
 }
@@ -128,7 +158,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut transforms = boundaries
             .flat_map(|own| (0..own.images()).map(|k| own.transform(k, time).to_scalar::<T>()));
         if transforms.any(|own| own.turns()) {
-            self.bring_together(true);
+            self.bring_together(Lists::BuiltNext);
             self.neighborhood.choose_skin();
             self.rebuild(time);
             self.follow_wraps();

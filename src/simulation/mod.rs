@@ -180,7 +180,9 @@ mod neighborhood;
 mod observed;
 mod outflow;
 mod outlook;
+mod own_counts;
 mod own_group;
+mod own_records;
 mod own_work;
 mod pair_list;
 mod part;
@@ -431,6 +433,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn evaluate(&mut self) -> Result<()> {
         once!(self => &mut Simulation, |own| -> Result<()> {
             own.check_failure()?;
+            if let Reading::Between(last) = &own.shown {
+                own.state.take_lists(last);
+            }
             if own.state.rates_at_hand && own.aside.is_none() {
                 own.aside = Some(Box::new(own.keep()));
             }

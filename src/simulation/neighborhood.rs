@@ -33,8 +33,8 @@ pub(crate) struct Neighborhood<T: Real, const D: usize> {
     pub lists: Arc<ClusterLists>,
     /// On ranks those of all chunks, from the first reading that needs them on.
     pub whole: OnceLock<Arc<ClusterLists>>,
-    /// Positions of slots at the last list build, then of images.
-    pub listed: Vec<[T; D]>,
+    /// Positions of slots at the last list build, then of images; shared as the lists are.
+    pub listed: Arc<Vec<[T; D]>>,
     pub listed_h: Vec<T>,
     pub listed_time: f64,
     /// How far from a boundary particles have images in the lists \[m\].
@@ -77,7 +77,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             chains: Chains::default(),
             lists: Arc::default(),
             whole: OnceLock::new(),
-            listed: Vec::new(),
+            listed: Arc::default(),
             listed_h: Vec::new(),
             listed_time: 0.0,
             listed_reach: 0.0,
@@ -102,7 +102,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
     /// Makes the lists outdated, for a rehearsal, with the skin that they have.
     pub fn outdate(&mut self) {
         self.served = u32::midpoint(LASTING[0], LASTING[1]);
-        if let Some(first) = self.listed.first_mut() {
+        if let Some(first) = Arc::make_mut(&mut self.listed).first_mut() {
             // No particle is as far away as that.
             first[0] = T::from_f64(f64::from(f32::MAX).sqrt());
         }
@@ -206,9 +206,12 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         (instructions, share): (InstructionSet, Option<&mut Share>),
     ) {
         self.listed_reach = reach;
-        self.listed.clear();
-        self.listed
-            .extend_from_slice(particles.columns.vectors(Field::POSITION));
+        if Arc::get_mut(&mut self.listed).is_none() {
+            self.listed = Arc::default();
+        }
+        let listed = Arc::make_mut(&mut self.listed);
+        listed.clear();
+        listed.extend_from_slice(particles.columns.vectors(Field::POSITION));
         self.listed_h.clear();
         self.listed_h
             .extend_from_slice(particles.columns.raw(Field::SMOOTHING_LENGTH));
@@ -238,7 +241,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         (listed, listed_h): (Vec<[T; D]>, Vec<T>),
         instructions: InstructionSet,
     ) {
-        (self.listed, self.listed_h) = (listed, listed_h);
+        (self.listed, self.listed_h) = (Arc::new(listed), listed_h);
         self.search_anew((instructions, None), 0);
     }
 
@@ -316,6 +319,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         let positions = particles.columns.vectors(Field::POSITION);
         let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
         let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
+        let listed = Arc::make_mut(&mut self.listed);
         let mut images = Vec::new();
         for (sources, wall) in bodies.chain(walls) {
             let place = |slot: usize| (slot as u32, positions[slot].map(Real::to_f64));
@@ -328,7 +332,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 let start = positions.len() + self.images.len();
                 for (image, x) in &images[before..] {
                     self.images.push(*image);
-                    self.listed.push(x.map(T::from_f64));
+                    listed.push(x.map(T::from_f64));
                 }
                 self.blocks.push(Block {
                     slots: start..positions.len() + self.images.len(),

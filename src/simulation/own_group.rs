@@ -7,15 +7,16 @@ use super::migration::Leaving;
 use super::neighborhood::Neighborhood;
 use super::part::{Part, runs_of};
 use super::population::{BodyState, Moves, Particles};
-use super::soundness::NEGATIVE_ENERGY;
 use super::walls::WallState;
 use super::workspace::{Saved, Workspace};
 use crate::material::eos::GuardCounts;
+use crate::neighbors::ClusterLists;
 use crate::particles::{Columns, Field};
-use crate::ranks::{Taken, What, put_number};
+use crate::ranks::What;
 use crate::scalar::Real;
 use crate::sweep::{Pass, Records, Results};
 use crate::term::Stage;
+use core::mem::take;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -23,38 +24,60 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug)]
 pub(crate) struct All<T: Real, const D: usize> {
     pub part: Arc<Part>,
-    particles: Particles<T, D>,
+    pub particles: Particles<T, D>,
     neighborhood: Neighborhood<T, D>,
     walls: Vec<WallState<T, D>>,
-    guards: GuardCounts,
-    limited: Vec<(&'static str, u64)>,
+    pub guards: GuardCounts,
+    pub limited: Vec<(&'static str, u64)>,
     /// Pairs summed before.
-    pairs: u64,
+    pub pairs: u64,
 }
 
 /// What a group has of this rank alone, on the way to all.
-struct Own<T: Real, const D: usize> {
-    part: Arc<Part>,
-    share: Share,
+pub(super) struct Own<T: Real, const D: usize> {
+    pub part: Arc<Part>,
+    pub share: Share,
     /// Slots of each rank.
-    runs: Vec<[Range<usize>; 2]>,
+    pub runs: Vec<[Range<usize>; 2]>,
     columns: Columns<T, D>,
     work: Workspace<T, D>,
 }
 
+/// What becomes of the lists of own chunks where all particles come together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Lists {
+    Kept,
+    /// Lists are built next, for which records are of no use either.
+    BuiltNext,
+    /// Another state has them.
+    Elsewhere,
+}
+
 impl<T: Real, const D: usize> Own<T, D> {
-    /// Gets numbers of all particles, `width` a slot, from those that ranks have.
-    fn gather(&self, own: &[T], all: &mut [T], width: usize) {
-        let numbers = |run: &Range<usize>| width * run.start..width * run.end;
-        let mut rest = own;
-        for run in &self.part.runs {
-            let (own, behind) = rest.split_at(width * run.len());
-            all[numbers(run)].copy_from_slice(own);
-            rest = behind;
+    /// Numbers of all particles, `width` a slot and so many, in the memory of those that this rank has, which grows where it must. Others
+    /// stay as they were `before`, or zero, where a rank has failed.
+    fn gather(&self, mut own: Vec<T>, (width, count): (usize, usize), before: &[T]) -> Vec<T> {
+        let (mut end, mut behind) = (width * self.part.count(), count);
+        own.truncate(end);
+        own.reserve_exact(count - end);
+        own.resize(count, T::zero());
+        let fill = |own: &mut [T], run: Range<usize>| match before.get(run.clone()) {
+            Some(before) => own[run].copy_from_slice(before),
+            None => own[run].fill(T::zero()),
+        };
+        // No run goes to a lower place, so the last goes first.
+        for run in self.part.runs.iter().rev() {
+            let (first, place) = (end - width * run.len(), width * run.start);
+            own.copy_within(first..end, place);
+            fill(&mut own, (place + end - first).min(behind)..behind);
+            (end, behind) = (first, place);
         }
+        fill(&mut own, 0..behind);
+        let numbers = |run: &Range<usize>| width * run.start..width * run.end;
         let runs_of = |rank: usize| self.runs[rank].each_ref().map(numbers);
         let team = &self.share.team;
-        team.gather_numbers(What::State, all, runs_of, Vec::new(), |_, _| Some(()));
+        team.gather_numbers(What::State, &mut own, runs_of, Vec::new(), |_, _| Some(()));
+        own
     }
 
     fn forget_records(&mut self) {
@@ -100,14 +123,15 @@ impl<T: Real, const D: usize> Group<T, D> {
             particles: core::mem::replace(&mut self.particles, own),
             neighborhood: core::mem::replace(&mut self.neighborhood, neighborhood),
             walls: core::mem::replace(&mut self.walls, walls),
-            guards: core::mem::take(&mut self.guards),
-            limited: core::mem::take(&mut self.limited),
+            guards: take(&mut self.guards),
+            limited: take(&mut self.limited),
             pairs,
         }));
     }
 
     /// Goes on with room for all particles. What was of this rank alone.
     fn open(&mut self) -> Option<Own<T, D>> {
+        self.join_counts();
         let (all, share) = (self.all.take()?, self.share.clone()?);
         let All {
             part,
@@ -116,29 +140,19 @@ impl<T: Real, const D: usize> Group<T, D> {
             walls,
             guards,
             limited,
-            pairs,
+            pairs: _,
         } = *all;
-        let counts = self.counts(pairs);
         let own = core::mem::replace(&mut self.particles, particles);
         let near = core::mem::replace(&mut self.neighborhood, neighborhood);
-        let work = core::mem::take(&mut self.work);
+        let mut work = take(&mut self.work);
+        work.forget_taken_back();
         (self.walls, self.guards, self.limited) = (walls, guards, limited);
         let slots = self.particles.columns.slots();
         self.neighborhood.take_back(&part, near, slots);
         let runs = (0..share.team.count())
             .map(|rank| runs_of::<T>(share.division(), rank, slots))
             .collect();
-        self.work.go_on(&work, pairs);
-        let mut all = vec![0; counts.len()];
-        let put = |to: &mut Vec<u8>| counts.iter().for_each(|own| put_number(*own, to));
-        share.team.gather(What::State, put, |_, from| {
-            let mut from = Taken(from);
-            for count in &mut all {
-                *count += from.number()?;
-            }
-            from.0.is_empty().then_some(())
-        });
-        self.add_counts(&all);
+        self.work.go_on(&work);
         Some(Own {
             part,
             share,
@@ -153,15 +167,15 @@ impl<T: Real, const D: usize> Group<T, D> {
         let slots = self.particles.columns.slots();
         for field in fields {
             let width = field.components(D);
-            let here = core::mem::take(own.columns.column_mut(field));
-            let column = self.particles.columns.column_mut(field);
+            let here = take(own.columns.column_mut(field));
             // Where a rank has failed its particles are where they were listed, and the error is told where the call ends.
-            *column = if field == Field::POSITION {
-                self.neighborhood.listed[..slots].as_flattened().to_vec()
+            let before = if field == Field::POSITION {
+                self.neighborhood.listed[..slots].as_flattened()
             } else {
-                vec![T::zero(); width * slots]
+                &[]
             };
-            own.gather(&here, column, width);
+            let all = own.gather(here, (width, width * slots), before);
+            *self.particles.columns.column_mut(field) = all;
         }
     }
 
@@ -180,9 +194,16 @@ impl<T: Real, const D: usize> Group<T, D> {
         })
     }
 
-    /// Goes on with all particles, which all ranks give each other at once, column by column; without their records where lists are
-    /// built next.
-    pub(super) fn bring_together(&mut self, for_lists: bool) {
+    /// Goes on with all particles, which all ranks give each other at once, column by column.
+    pub(super) fn bring_together(&mut self, lists: Lists) {
+        if self.all.is_none() {
+            return;
+        }
+        let for_lists = lists == Lists::BuiltNext;
+        let read = (!for_lists).then(|| self.read_by_walls()).flatten();
+        if lists == Lists::Elsewhere {
+            self.neighborhood.lists = Arc::default();
+        }
         let Some(mut own) = self.open() else {
             return;
         };
@@ -193,69 +214,63 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.gather_columns(&mut own, fields.iter());
         let slots = self.particles.columns.slots();
         self.work.expect_saved(&own.work, &self.particles, slots);
-        for ((_, here), (field, all)) in own.work.saved().zip(self.work.saved_mut()) {
+        let mut work = take(&mut own.work);
+        for ((_, here), (field, all)) in work.saved_mut().zip(self.work.saved_mut()) {
             if !all.is_empty() {
-                own.gather(here, all, field.components(D));
+                *all = own.gather(take(here), (field.components(D), all.len()), &[]);
             }
         }
         let (team, division) = (own.share.team.clone(), own.share.division());
         let chunks: Vec<_> = (0..team.count()).map(|rank| division.of(rank)).collect();
         let mobile = self.particles.mobile;
         let count = self.neighborhood.lists.chunks().len();
-        for (sums, all) in own.work.sums_mut().into_iter().zip(self.work.sums_mut()) {
+        for (sums, all) in work.sums_mut().into_iter().zip(self.work.sums_mut()) {
             let moving =
                 |runs: &[Range<usize>; 2]| runs[0].start.min(mobile)..runs[0].end.min(mobile);
-            let (sums, here) = (core::mem::take(sums), (&moving(&own.part.runs), mobile));
+            let (sums, here) = (take(sums), (&moving(&own.part.runs), mobile));
             *all = Results::among(sums, here, (&own.part.chunks, count));
             let rows = |runs: &[Range<usize>; 2]| [all.rows_of(&moving(runs)), 0..0];
             let rows: Vec<_> = own.runs.iter().map(rows).collect();
             all.gather((&team, What::State), &rows, &chunks);
         }
         if !for_lists {
-            self.work
-                .expect_records(&own.work, slots + self.neighborhood.images.len());
-            for (here, all) in own.work.records().into_iter().zip(self.work.records_mut()) {
-                if !all.data().is_empty() {
-                    let stride = all.stride();
-                    own.gather(here.data(), all.data_mut(), stride);
+            let count = slots + self.neighborhood.images.len();
+            let kinds = [(work.records_of_rates, read), (true, None)];
+            let all = work.records_mut().into_iter().zip(self.work.records_mut());
+            for ((here, all), (is_there, read)) in all.zip(kinds) {
+                let stride = here.stride();
+                if is_there && stride > 0 {
+                    let here = take(here).into_data();
+                    let size = (stride, stride * count);
+                    let data = match read {
+                        None => own.gather(here, size, &[]),
+                        Some(read) => own.gather_some(here, size, &read),
+                    };
+                    *all = Records::of_stored(data, stride);
                 }
             }
             self.show_images_again();
         }
     }
 
-    /// What guards and limits have counted, and how many pairs were summed beside some.
-    fn counts(&self, pairs: u64) -> Vec<u64> {
-        let GuardCounts {
-            compression,
-            expansion,
-            cut_off,
-        } = self.guards;
-        let mut counts = vec![
-            compression,
-            expansion,
-            cut_off,
-            self.work.spent.pairs - pairs,
-        ];
-        counts.extend(self.names_of_limits().into_iter().map(|name| {
-            let own = self.limited.iter().find(|own| own.0 == name);
-            own.map_or(0, |own| own.1)
-        }));
-        counts
-    }
-
-    fn add_counts(&mut self, counts: &[u64]) {
-        let [compression, expansion, cut_off, pairs, limited @ ..] = counts else {
+    /// Takes lists of own chunks that were left to a state with the same, if they were.
+    pub(super) fn take_lists(&mut self, last: &Self) {
+        let Some(share) = &self.share else {
             return;
         };
-        self.guards += GuardCounts {
-            compression: *compression,
-            expansion: *expansion,
-            cut_off: *cut_off,
-        };
-        self.work.spent.pairs += pairs;
-        for (name, count) in self.names_of_limits().into_iter().zip(limited) {
-            self.count(name, *count);
+        let runs = share.division().of(share.team.rank());
+        let slots = self.particles.columns.slots();
+        let near = &mut self.neighborhood;
+        if runs
+            .into_iter()
+            .all(|own| near.lists.missing(own).is_empty())
+        {
+            return;
+        }
+        let lists = last.neighborhood.lists.clone();
+        match &last.all {
+            None => near.lists = lists,
+            Some(all) => near.put_lists(&all.part, lists, slots),
         }
     }
 
@@ -265,30 +280,16 @@ impl<T: Real, const D: usize> Group<T, D> {
         let Some(sweep) = scheme.sweep(Stage::Rates) else {
             return;
         };
-        let mut records = core::mem::take(&mut self.work.records);
+        let mut records = take(&mut self.work.records);
         if self.work.records_of_rates {
             sweep.show_images(Pass::Rates, &self.input(), &mut records);
         }
         self.work.records = records;
-        let mut records = core::mem::take(&mut self.work.work_records);
+        let mut records = take(&mut self.work.work_records);
         if !records.data().is_empty() {
             sweep.show_images(Pass::Work, &self.input(), &mut records);
         }
         self.work.work_records = records;
-    }
-
-    /// Names of all limits that may be counted, in the order of the scheme.
-    fn names_of_limits(&self) -> Vec<&'static str> {
-        let program = &self.scheme.program;
-        let laws = program.laws.iter().flatten().map(|law| law.name());
-        let updates = program.evolved.iter().map(|own| program.name_of(own.field));
-        let mut names = Vec::new();
-        for name in laws.chain(updates).chain([NEGATIVE_ENERGY]) {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names
     }
 }
 
@@ -357,7 +358,7 @@ impl Part {
             chains: all.chains.clone(),
             lists: Arc::new(lists),
             whole: OnceLock::new(),
-            listed: self.named(slots).map(|other| all.listed[other]).collect(),
+            listed: Arc::new(self.named(slots).map(|other| all.listed[other]).collect()),
             listed_h,
             ..*all
         }
@@ -414,22 +415,21 @@ impl Part {
 impl<T: Real, const D: usize> Neighborhood<T, D> {
     /// Goes on from the lists and images of a rank, of a group with so many slots.
     fn take_back(&mut self, part: &Part, own: Self, slots: usize) {
-        let named: Vec<u32> = part.named(slots).map(|own| own as u32).collect();
-        let lists = Arc::unwrap_or_clone(own.lists);
-        let number = |j: u32| named[j as usize];
-        Arc::make_mut(&mut self.lists).put_runs(lists, &part.chunks, number);
+        self.put_lists(part, own.lists, slots);
         (self.served, self.placed_time) = (own.served, own.placed_time);
         self.chains = own.chains;
+    }
+
+    fn put_lists(&mut self, part: &Part, own: Arc<ClusterLists>, slots: usize) {
+        let named: Vec<u32> = part.named(slots).map(|own| own as u32).collect();
+        let number = |j: u32| named[j as usize];
+        let lists = Arc::unwrap_or_clone(own);
+        Arc::make_mut(&mut self.lists).put_runs(lists, &part.chunks, number);
     }
 }
 
 impl<T: Real, const D: usize> Workspace<T, D> {
     /// Columns of saved states that count.
-    fn saved(&self) -> impl Iterator<Item = &(Field, Vec<T>)> {
-        let predicted = self.predicted.iter().filter(|_| self.is_predicted);
-        self.kept.iter().flatten().chain(predicted)
-    }
-
     fn saved_mut(&mut self) -> impl Iterator<Item = &mut (Field, Vec<T>)> {
         let is_predicted = self.is_predicted;
         let predicted = self.predicted.iter_mut().filter(move |_| is_predicted);
@@ -441,36 +441,19 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         [&mut self.rates, &mut self.worked]
     }
 
-    fn records(&self) -> [&Records<T>; 2] {
-        [&self.records, &self.work_records]
-    }
-
     fn records_mut(&mut self) -> [&mut Records<T>; 2] {
         [&mut self.records, &mut self.work_records]
     }
 
-    /// Goes on from the work of a rank, after so many pairs.
-    fn go_on(&mut self, own: &Self, pairs: u64) {
+    /// Goes on from the work of a rank.
+    fn go_on(&mut self, own: &Self) {
         (self.phases, self.spent) = (own.phases, own.spent);
-        self.spent.pairs = pairs;
         self.records_of_rates = own.records_of_rates;
         self.evaluated_time = own.evaluated_time;
         self.evaluated_gravity = own.evaluated_gravity;
         self.first_kick = own.first_kick;
         self.lengths_time = own.lengths_time;
         self.is_predicted = own.is_predicted;
-    }
-
-    /// Makes room for so many records of the kinds that a rank has.
-    fn expect_records(&mut self, own: &Self, count: usize) {
-        let room = |own: &Records<T>| {
-            let stride = own.stride();
-            Records::of_stored(vec![T::zero(); stride * count], stride)
-        };
-        if own.records_of_rates {
-            self.records = room(&own.records);
-        }
-        self.work_records = room(&own.work_records);
     }
 
     /// Makes room for the states that a rank keeps.

@@ -7,7 +7,9 @@ use super::group::Group;
 use super::impulses::Impulses;
 use super::joints::Joints;
 use super::{Simulation, Vote, energy, stability, stored};
+use crate::particles::{Columns, Fields};
 use crate::scalar::Real;
+use core::mem::replace;
 
 /// What steps change.
 #[derive(Clone, Debug)]
@@ -107,10 +109,23 @@ impl<T: Real, const D: usize> State<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Keeps the state, of which a copy takes the place.
+    /// Keeps the state, of which a copy takes the place. Where ranks have their own particles alone, its columns have room for all: to
+    /// grow later would leave holes in memory.
     pub(super) fn keep(&mut self) -> State<T, D> {
-        let copy = self.state.clone();
-        core::mem::replace(&mut self.state, copy)
+        let mut columns = Vec::with_capacity(self.state.groups.len());
+        for group in &mut self.state.groups {
+            group.work.forget_taken_back();
+            let none = Columns::new(Fields::NONE, 0);
+            columns.push(replace(&mut group.particles.columns, none));
+        }
+        let mut kept = self.state.clone();
+        let groups = self.state.groups.iter_mut().zip(&mut kept.groups);
+        for ((own, kept), columns) in groups.zip(columns) {
+            let slots = own.all.as_ref().map_or(columns.slots(), |all| all.slots());
+            own.particles.columns = columns.with_room(slots);
+            kept.particles.columns = columns;
+        }
+        kept
     }
 
     /// Restores the saved state. The time that was spent meanwhile stays spent.

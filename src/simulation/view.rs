@@ -8,6 +8,7 @@ use crate::clock::Instant;
 use crate::error::Result;
 use crate::scalar::Real;
 use core::mem;
+use std::borrow::Cow;
 
 /// What readings are shown.
 #[derive(Clone, Debug)]
@@ -16,7 +17,8 @@ pub(super) enum Reading<T: Real, const D: usize> {
     LastStep,
     /// The same, at a time that differs by rounding from its own, which is this \[s\].
     Rounded(f64),
-    /// A copy that has taken a shortened step; the state after the last step is kept here.
+    /// A copy that has taken a shortened step; the state after the last step is kept here, of which ranks that step by parts have
+    /// their own particles alone.
     Between(Box<State<T, D>>),
 }
 
@@ -28,12 +30,20 @@ pub(crate) fn rounding(time: f64) -> f64 {
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Shows the state at `time` \[s\], which is before the end of the next step.
     pub(super) fn show(&mut self, time: f64, next: Vote) -> Result<()> {
-        // What is shown is a state of all particles, and so is that from which steps go on.
-        self.end_parts();
         let (start, before) = (Instant::now(), self.phases());
+        // Of what steps go on from ranks that step by parts keep their own, and of what is shown all have all.
+        if self.team.as_ref().is_some_and(|team| team.count() > 1) {
+            self.keep_own();
+            self.join_counts();
+        } else {
+            self.end_parts();
+        }
         let last = self.keep();
         let stepped = self.advance(next, time - self.state.time);
         self.state.time = time;
+        if stepped.is_ok() {
+            self.state.bring_together(Some(&last));
+        }
         self.book_step(start, before);
         if stepped.is_err() {
             self.put_back(last);
@@ -57,6 +67,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             Reading::LastStep => {}
             Reading::Rounded(time) => self.state.time = time,
             Reading::Between(last) => self.put_back(*last),
+        }
+        // Where ranks do not step by parts a step shows all particles.
+        if !self.steps_parts {
+            self.bring_together();
         }
     }
 
@@ -94,7 +108,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The same, with the rates of an evaluation between steps.
     fn leave_last_step(&mut self) {
-        if let Reading::Between(_) = mem::replace(&mut self.shown, Reading::LastStep) {
+        if let Reading::Between(last) = mem::replace(&mut self.shown, Reading::LastStep) {
+            self.state.take_lists(&last);
+            drop(last);
             self.watch_events();
             let held = self.follow_clamps(true);
             if self.exchange_schemes() || held {
@@ -117,7 +133,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Acts on the state after the last step, while another is shown.
+    /// Acts on the state after the last step, while another is shown: of all particles, which ranks bring together for it.
     pub(super) fn on_last_step<R>(&mut self, act: impl FnOnce(&mut Self) -> R) -> R {
         let (mut aside, mut shown) = (self.aside.take(), Reading::LastStep);
         mem::swap(&mut self.shown, &mut shown);
@@ -128,6 +144,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         };
         exchange(self);
         self.exchange_shown(&mut shown);
+        self.bring_together();
         let result = act(self);
         self.exchange_shown(&mut shown);
         exchange(self);
@@ -167,6 +184,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The state after the last step, which has counted what it took.
     pub(super) fn after_step(&self) -> &State<T, D> {
         self.last_step().unwrap_or(&self.state)
+    }
+
+    /// The same of all particles: where each rank has kept its own, all make a copy at once.
+    pub(super) fn after_step_of_all(&self) -> Cow<'_, State<T, D>> {
+        let last = self.after_step();
+        if !last.is_parted() {
+            return Cow::Borrowed(last);
+        }
+        let mut all = last.clone();
+        all.bring_together(Some(last));
+        Cow::Owned(all)
     }
 
     /// Steps taken. A state that is shown between two steps is that of neither.

@@ -21,9 +21,9 @@ pub(crate) struct WallState<T, const D: usize> {
     pub slots: Range<usize>,
     pub end: usize,
     /// Where its particles were in the scene, by identity.
-    pub rest: Vec<[f64; D]>,
+    pub rest: Arc<[[f64; D]]>,
     /// Unit vectors from the liquid into it, by identity; none if the scheme does not ask for them.
-    pub normals: Vec<[f64; D]>,
+    pub normals: Arc<[[f64; D]]>,
     pub motion: Option<Arc<dyn Motion<D>>>,
     /// What moves it if it is the buffer of an inlet whose velocity differs by place or time.
     pub inflow: Option<Inflow<D>>,
@@ -89,7 +89,7 @@ impl<T: Real, const D: usize> WallState<T, D> {
         let gradients = self.structure.as_ref();
         WallSurface::new(
             (ids, self.slots.start),
-            (&self.rest, &self.normals),
+            (&*self.rest, &*self.normals),
             (pose, self.slip),
             accelerations,
             gradients.map_or(&[], |structure| &structure.spins.gradients),

@@ -81,6 +81,13 @@ impl<T: Real, const D: usize> Default for Workspace<T, D> {
 }
 
 impl<T: Real, const D: usize> Workspace<T, D> {
+    /// Frees what a prediction has taken back.
+    pub fn forget_taken_back(&mut self) {
+        if !self.is_predicted {
+            self.predicted = Vec::new();
+        }
+    }
+
     /// Component `k` of the column of accelerations, of particles with these masses.
     #[inline(always)]
     pub fn acceleration(&self, mass: &[T], k: usize) -> T {

@@ -171,9 +171,9 @@ impl<T: Real> Records<T> {
         &self.data
     }
 
-    /// All records, to be written.
-    pub(crate) fn data_mut(&mut self) -> &mut [T] {
-        &mut self.data
+    /// All records, as of which others may be made.
+    pub(crate) fn into_data(self) -> Vec<T> {
+        self.data
     }
 
     /// Numbers a record.

@@ -2,6 +2,7 @@
 //! equal to that of a plain run; and errors that reach all ranks.
 
 mod bad_inputs;
+mod between;
 mod errors;
 #[cfg(feature = "checkpoint")]
 mod killed;

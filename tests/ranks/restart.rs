@@ -109,6 +109,53 @@ fn goes_on_anywhere<T: Real, const D: usize>(
     });
 }
 
+/// The same of a run in parts that is read between two steps, and saved then: each rank has its own particles after the last step.
+#[test]
+fn what_is_read_between_steps_goes_on_anywhere() {
+    fn go_on<const D: usize>(mut simulation: Simulation<f64, D>, end: f64) -> [Vec<u64>; 2] {
+        let first = said(&simulation);
+        simulation.run_until(end).expect("a run");
+        [first, said(&simulation)]
+    }
+    fn saved<const D: usize>(name: &str, scene: impl Fn() -> Scene<f64, D> + Sync) {
+        let folder = Folder::new(&format!("read-on-ranks-{name}"));
+        let [path, plain] = ["ranks", "plain"].map(|name| folder.0.join(name));
+        let mut whole = scene().build().expect("the scene");
+        let time = 40.3 * whole.step().expect("a step");
+        let run = |simulation: &mut Simulation<f64, D>, path: &Path| {
+            simulation.run_until(0.7 * time).expect("a run");
+            simulation.run_until(time).expect("a run");
+            simulation.save(path).expect("a file");
+        };
+        let mut whole = scene().build().expect("the scene");
+        run(&mut whole, &plain);
+        let expected = go_on(whole, 1.5 * time);
+        let all = ranks::in_threads(3, 1, |ranks| {
+            let mut simulation = scene().on_ranks(ranks).build().expect("the scene");
+            run(&mut simulation, &path);
+            go_on(simulation, 1.5 * time)
+        });
+        assert!(all.expect("threads").iter().all(|own| *own == expected));
+        assert!(columns(&path).contains_key("shown"), "{name}");
+        let resumed = scene().resume(&path).expect("a checkpoint");
+        assert!(go_on(resumed, 1.5 * time) == expected, "{name}");
+        for count in [1, 2, 4] {
+            let all = ranks::in_threads(count, 1, |ranks| {
+                let resumed = scene().on_ranks(ranks).resume(&path).expect("a checkpoint");
+                go_on(resumed, 1.5 * time)
+            });
+            let all = all.expect("threads");
+            assert!(all.iter().all(|own| *own == expected), "{name} on {count}");
+        }
+    }
+    watched(|| {
+        saved("dam break", dam_break);
+        saved("crushed", crushed_tank);
+        saved("gas", periodic_gas);
+        saved("Runge-Kutta", rod_by_runge_kutta);
+    });
+}
+
 #[test]
 fn a_dam_break_on_three_ranks_goes_on_anywhere() {
     goes_on_anywhere("dam break", dam_break);

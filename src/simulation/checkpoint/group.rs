@@ -24,7 +24,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             neighborhood,
             work,
             scheme,
-            // Every rank has the whole state between calls.
+            // Ranks bring all particles together before.
             share: _,
             all: _,
             walls,

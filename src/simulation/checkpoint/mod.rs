@@ -135,6 +135,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             steps_parts: _,
         } = self;
         // The next step starts from the state after the last one. While another is shown, no particles enter.
+        let last = self.after_step_of_all();
         let State {
             groups,
             couples,
@@ -156,7 +157,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             watch: _,
             stores,
             happened,
-        } = self.after_step();
+        } = &*last;
         let time = match reading {
             Reading::Rounded(own) => own,
             _ => time,
