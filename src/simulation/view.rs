@@ -8,6 +8,7 @@ use crate::clock::Instant;
 use crate::error::Result;
 use crate::scalar::Real;
 use core::mem;
+#[cfg(feature = "checkpoint")]
 use std::borrow::Cow;
 
 /// What readings are shown.
@@ -187,6 +188,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The same of all particles: where each rank has kept its own, all make a copy at once.
+    #[cfg(feature = "checkpoint")]
     pub(super) fn after_step_of_all(&self) -> Cow<'_, State<T, D>> {
         let last = self.after_step();
         if !last.is_parted() {
