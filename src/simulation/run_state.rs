@@ -118,14 +118,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             let none = Columns::new(Fields::NONE, 0);
             columns.push(replace(&mut group.particles.columns, none));
         }
-        let mut kept = self.state.clone();
-        let groups = self.state.groups.iter_mut().zip(&mut kept.groups);
-        for ((own, kept), columns) in groups.zip(columns) {
+        let mut copy = self.state.clone();
+        let groups = self.state.groups.iter_mut().zip(&mut copy.groups);
+        for ((own, copy), columns) in groups.zip(columns) {
             let slots = own.all.as_ref().map_or(columns.slots(), |all| all.slots());
-            own.particles.columns = columns.with_room(slots);
-            kept.particles.columns = columns;
+            copy.particles.columns = columns.with_room(slots);
+            own.particles.columns = columns;
         }
-        kept
+        replace(&mut self.state, copy)
     }
 
     /// Restores the saved state. The time that was spent meanwhile stays spent.
