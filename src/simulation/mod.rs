@@ -182,7 +182,6 @@ mod outflow;
 mod outlook;
 mod own_counts;
 mod own_group;
-mod own_records;
 mod own_work;
 mod pair_list;
 mod part;

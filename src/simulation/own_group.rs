@@ -34,11 +34,11 @@ pub(crate) struct All<T: Real, const D: usize> {
 }
 
 /// What a group has of this rank alone, on the way to all.
-pub(super) struct Own<T: Real, const D: usize> {
-    pub part: Arc<Part>,
-    pub share: Share,
+struct Own<T: Real, const D: usize> {
+    part: Arc<Part>,
+    share: Share,
     /// Slots of each rank.
-    pub runs: Vec<[Range<usize>; 2]>,
+    runs: Vec<[Range<usize>; 2]>,
     columns: Columns<T, D>,
     work: Workspace<T, D>,
 }
@@ -200,7 +200,6 @@ impl<T: Real, const D: usize> Group<T, D> {
             return;
         }
         let for_lists = lists == Lists::BuiltNext;
-        let read = (!for_lists).then(|| self.read_by_walls()).flatten();
         if lists == Lists::Elsewhere {
             self.neighborhood.lists = Arc::default();
         }
@@ -235,18 +234,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
         if !for_lists {
             let count = slots + self.neighborhood.images.len();
-            let kinds = [(work.records_of_rates, read), (true, None)];
+            let are_there = [work.records_of_rates, true];
             let all = work.records_mut().into_iter().zip(self.work.records_mut());
-            for ((here, all), (is_there, read)) in all.zip(kinds) {
+            for ((here, all), is_there) in all.zip(are_there) {
                 let stride = here.stride();
                 if is_there && stride > 0 {
-                    let here = take(here).into_data();
-                    let size = (stride, stride * count);
-                    let data = match read {
-                        None => own.gather(here, size, &[]),
-                        Some(read) => own.gather_some(here, size, &read),
-                    };
-                    *all = Records::of_stored(data, stride);
+                    let own = own.gather(take(here).into_data(), (stride, stride * count), &[]);
+                    *all = Records::of_stored(own, stride);
                 }
             }
             self.show_images_again();

@@ -189,7 +189,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let (count, activity) = (columns.slots(), columns.raw(Field::CONTACT_ACTIVITY));
         let images = self.images(group);
         let mut all = Vec::new();
-        for (n, record) in kept.chunks_exact(stride.max(1)).enumerate() {
+        // Lists that were built since may have fewer images: an evaluation keeps others then.
+        let there = count + images.len() / 2;
+        for (n, record) in kept.chunks_exact(stride.max(1)).take(there).enumerate() {
             let first = all.len();
             all.extend(record.iter().map(|own| own.to_f64()));
             if let Some(at) = active {
