@@ -202,10 +202,9 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         particles: &Particles<T, D>,
         walls: &[WallState<T, D>],
         boundaries: &[Arc<dyn Boundary<D>>],
-        (time, reach): (f64, f64),
+        at: (f64, f64),
         (instructions, share): (InstructionSet, Option<&mut Share>),
     ) {
-        self.listed_reach = reach;
         if Arc::get_mut(&mut self.listed).is_none() {
             self.listed = Arc::default();
         }
@@ -215,6 +214,19 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         self.listed_h.clear();
         self.listed_h
             .extend_from_slice(particles.columns.raw(Field::SMOOTHING_LENGTH));
+        self.place_blocks(particles, walls, boundaries, at);
+        self.search_anew((instructions, share), particles.mobile);
+    }
+
+    /// Finds blocks, and images within `reach` \[m\], of particles where they are listed.
+    pub(super) fn place_blocks(
+        &mut self,
+        particles: &Particles<T, D>,
+        walls: &[WallState<T, D>],
+        boundaries: &[Arc<dyn Boundary<D>>],
+        (time, reach): (f64, f64),
+    ) {
+        self.listed_reach = reach;
         self.blocks.clear();
         let bodies = particles.bodies.iter().map(|body| body.slots.clone());
         let block = |wall| move |slots| Block { slots, wall };
@@ -231,16 +243,17 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
                 self.listed_h.push(self.listed_h[image.source as usize]);
             }
         }
-        self.search_anew((instructions, share), particles.mobile);
     }
 
-    /// Lists neighbours at places, with smoothing lengths where they vary, for which a device has listed them.
+    /// Lists neighbours at places, with smoothing lengths where they vary, for which a device has listed them. Those of images are known.
     #[cfg(feature = "devices")]
     pub fn list_again(
         &mut self,
-        (listed, listed_h): (Vec<[T; D]>, Vec<T>),
+        (mut listed, mut listed_h): (Vec<[T; D]>, Vec<T>),
         instructions: InstructionSet,
     ) {
+        listed.extend_from_slice(&self.listed[listed.len()..]);
+        listed_h.extend_from_slice(&self.listed_h[listed_h.len()..]);
         (self.listed, self.listed_h) = (Arc::new(listed), listed_h);
         self.search_anew((instructions, None), 0);
     }
@@ -316,26 +329,25 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         if boundaries.is_empty() {
             return;
         }
-        let positions = particles.columns.vectors(Field::POSITION);
         let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
         let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
         let listed = Arc::make_mut(&mut self.listed);
         let mut images = Vec::new();
         for (sources, wall) in bodies.chain(walls) {
-            let place = |slot: usize| (slot as u32, positions[slot].map(Real::to_f64));
             images.clear();
             for b in 0..boundaries.len() {
                 let before = images.len();
                 let at = (self.listed_reach, time);
+                let place = |slot: usize| (slot as u32, listed[slot].map(Real::to_f64));
                 let sources = Range::clone(sources).map(place);
                 self.chains.show(sources, &mut images, (boundaries, b), at);
-                let start = positions.len() + self.images.len();
+                let start = listed.len();
                 for (image, x) in &images[before..] {
                     self.images.push(*image);
                     listed.push(x.map(T::from_f64));
                 }
                 self.blocks.push(Block {
-                    slots: start..positions.len() + self.images.len(),
+                    slots: start..listed.len(),
                     wall: wall.is_some(),
                 });
                 self.mirrored.push(wall.is_some_and(WallState::is_mirrored));

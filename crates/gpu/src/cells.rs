@@ -77,6 +77,17 @@ impl Around<'_> {
     fn listed(&self, d: usize, slot: &str) -> String {
         format!("state[{}u + {slot}]", self.layout.listed(d))
     }
+    /// Numbers of a place, with a smoothing length where it varies.
+    pub fn width(&self) -> usize {
+        self.d() + usize::from(self.layout.varies())
+    }
+    fn place(&self, d: usize, slot: &str) -> String {
+        format!("places[({slot}) * {}u + {d}u]", self.width())
+    }
+    /// The block of a slot, behind the table of who lists whom.
+    fn member(&self, slot: &str) -> String {
+        format!("members[{}u + {slot}]", self.blocks * self.blocks)
+    }
     fn count(&self, name: &str, at: usize) -> String {
         self.dialect
             .index(name, &self.dialect.whole(&self.grid(at)))
@@ -113,12 +124,19 @@ impl Around<'_> {
         })
     }
 
-    /// The cell of each particle, behind all for what repeats one.
+    /// The places of particles beside each other, before those of images.
+    pub fn places(&self) -> String {
+        (0..self.width()).fold(String::new(), |body, d| {
+            body + &format!("{} = {};\n", self.place(d, "i"), self.listed(d, "i"))
+        })
+    }
+
+    /// The cell of each particle and image, behind all for what repeats one.
     pub fn keys(&self) -> String {
-        let mut body = self.dialect.index("own", "members[i]");
+        let mut body = self.dialect.index("own", &self.member("i"));
         let mut all = format!("{}u", self.blocks);
         for d in 0..self.d() {
-            let x = self.listed(d, "i");
+            let x = self.place(d, "i");
             body += &self.count(&format!("table{d}"), self.tables() + d);
             let cell = format!("{} % table{d}", self.cell(0, d, &x));
             body += &self.dialect.index(&format!("cell{d}"), &cell);
@@ -133,13 +151,11 @@ impl Around<'_> {
     /// Where each cell of the table starts among sorted particles.
     pub fn starts(&self) -> String {
         let dialect = self.dialect;
-        let halvings = usize::BITS - self.layout.slots.leading_zeros() + 1;
         let mut body = dialect.counter("low", "0u") + &dialect.counter("high", "scene.length");
-        body += &dialect.each("halving", "0u", &format!("{halvings}u"));
-        body += "if (low < high) {\n";
+        body += "while (low < high) {\n";
         body += &dialect.index("middle", "(low + high) / 2u");
         body += "if (keys[sorted[middle]] < n) { low = middle + 1u; } else { high = middle; }\n";
-        body + "}\n}\ncells[n] = low;\n"
+        body + "}\ncells[n] = low;\n"
     }
 
     /// The place of each particle along the curve, in two words, and its block; as `hilbert_index` has it.
@@ -176,17 +192,19 @@ impl Around<'_> {
         }
         body += "}\n";
         // What repeats a particle stays behind all of its body.
-        body += &format!("if (members[i] >= {blocks}u) {{ low = 0xffffffffu; high = low; }}\n");
+        let own = self.member("i");
+        body += &format!("if ({own} >= {blocks}u) {{ low = 0xffffffffu; high = low; }}\n");
         body += &format!("keys[i] = low;\nkeys[{slots}u + i] = high;\n");
         let width = self.cluster;
-        body += &format!("keys[{}u + i] = members[i - i % {width}u];\n", 2 * slots);
+        let first = self.member(&format!("i - i % {width}u"));
+        body += &format!("keys[{}u + i] = {first};\n", 2 * slots);
         body + "order[i] = i;\nother[i] = i;\n"
     }
 
     /// What repeats the last particle of a body, after a sort.
     pub fn repeats(&self) -> String {
         let blocks = self.blocks;
-        let own = self.dialect.index("own", "members[i]");
+        let own = self.dialect.index("own", &self.member("i"));
         format!("{own}if (own >= {blocks}u) {{ order[i] = order[own - {blocks}u]; }}\n")
     }
 
@@ -197,9 +215,9 @@ impl Around<'_> {
         let number = |name: &str, value: &str| dialect.declare(false, name, value) + "\n";
         let mut body = dialect.index("first", &format!("n / {blocks}u * {width}u"));
         body += &dialect.index("other", &format!("n % {blocks}u"));
-        body += &dialect.index("own", "members[first]");
+        body += &dialect.index("own", &self.member("first"));
         body += &dialect.counter("found", if fills { "counts[n]" } else { "0u" });
-        let listed = format!("members[{}u + own * {blocks}u + other]", self.layout.slots);
+        let listed = format!("members[own * {blocks}u + other]");
         // Beside each other, for the second is no place in the array where the first does not hold.
         body += &format!("if (own < {blocks}u) {{\nif ({listed} != 0u) {{\n");
         let members = 0..width;
@@ -209,10 +227,10 @@ impl Around<'_> {
         for m in members.clone() {
             let slot = format!("first + {m}u");
             for d in axes.clone() {
-                body += &number(&format!("m{m}_{d}"), &self.listed(d, &slot));
+                body += &number(&format!("m{m}_{d}"), &self.place(d, &slot));
             }
             if varies {
-                body += &number(&format!("h{m}"), &self.listed(self.d(), &slot));
+                body += &number(&format!("h{m}"), &self.place(self.d(), &slot));
             }
         }
         if varies {
@@ -255,7 +273,7 @@ impl Around<'_> {
         body += &dialect.each("k", "k_first", "k_last");
         body += &dialect.index("j", "sorted[k]");
         for d in axes.clone() {
-            body += &number(&format!("y{d}"), &self.listed(d, "j"));
+            body += &number(&format!("y{d}"), &self.place(d, "j"));
         }
         for m in members {
             let squares = axes
@@ -271,7 +289,7 @@ impl Around<'_> {
         }
         let mut within = self.grid(reach + 1);
         if varies {
-            let h = larger(self.listed(self.d(), "j"), "widest".into());
+            let h = larger(self.place(self.d(), "j"), "widest".into());
             let own = format!("{h} * {} + {}", self.grid(reach + 2), self.grid(reach + 3));
             body += &number("far", &own);
             let raised = dialect.constant(1.0 + rounding(dialect.precision));

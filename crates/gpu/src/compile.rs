@@ -125,6 +125,19 @@ fn pack(
     let Some(image) = image else {
         return Ok((own, None));
     };
+    let body = transformed(&places, image, (d, dialect));
+    let (images, transforms) = (Array::indices("images"), Array::numbers("transforms"));
+    let of_images = kernel("images", &[state, images, transforms, records], &body)?;
+    Ok((own, Some(of_images)))
+}
+
+/// The text that takes numbers of the particle `images[n * 2]` from columns of the state through the transform `images[n * 2 + 1]`, by a
+/// record. Each stands where a column starts, and goes to a place.
+pub(crate) fn transformed(
+    places: &[(usize, String)],
+    image: &Record,
+    (d, dialect): (usize, Dialect),
+) -> String {
     let by = d * d + 2 * d;
     let mut body = dialect.index("source", "images[n * 2u]");
     body += &dialect.index("by", &format!("images[n * 2u + 1u] * {by}u"));
@@ -139,9 +152,7 @@ fn pack(
     for ((_, to), value) in places.iter().zip(&text.results) {
         body += &format!("{to} = {value};\n");
     }
-    let (images, transforms) = (Array::indices("images"), Array::numbers("transforms"));
-    let of_images = kernel("images", &[state, images, transforms, records], &body)?;
-    Ok((own, Some(of_images)))
+    body
 }
 
 /// Makes kernels of the lists of a program.

@@ -2,16 +2,16 @@
 //! The host is told how many entries there are and, after a sort, which particle is where.
 
 use crate::cells::{Around, folded, numbers};
-use crate::compile::Sizes;
+use crate::compile::{Sizes, transformed};
 use crate::device::{Bound, Buffer, Extent, Kernel};
 use crate::kernel::{Array, pack_indices};
 use crate::pairs::PairLists;
 use crate::reduce::{Find, Reduction};
 use crate::run::Run;
 use crate::sort::{Scan, Sort, Sorted, digits};
-use crate::{Device, Error, Precision};
+use crate::{Device, Error, Part, Precision};
 use meshfree::scalar::Real;
-use meshfree::simulation::device::{Bounds, Search};
+use meshfree::simulation::device::{Bounds, Offloaded, Search};
 
 /// Cells of the table for each slot.
 const CELLS: usize = 4;
@@ -27,29 +27,63 @@ pub(crate) struct Builder {
     kernels: Kernels,
     sort: Sort,
     bounds: Reduction,
-    /// What comes before entries are counted, with that.
-    counted: Vec<Bound>,
-    keys: Buffer,
-    orders: [Buffer; 2],
-    counts: Buffer,
-    members: Buffer,
+    /// What is known of each slot, and rooms for slots with images.
+    of_slots: Vec<u32>,
+    rooms: Rooms,
     cells: Buffer,
-    /// Which of the orders has particles by their cells.
-    sorted: usize,
     grid: Buffer,
     clusters: Buffer,
     segments: Buffer,
     list: Buffer,
     /// Entries that the list has room for.
     room: usize,
-    /// Cells of the table for a block, and clusters times blocks.
+    /// Cells of the table for a block, and how many blocks there are.
     table: usize,
+    blocks: usize,
+    /// Clusters times blocks.
     pairs: usize,
+}
+
+/// Memory for slots and images.
+#[derive(Debug)]
+struct Rooms {
+    /// How many it is for.
+    size: usize,
+    keys: Buffer,
+    orders: [Buffer; 2],
+    counts: Buffer,
+    members: Buffer,
+    places: Buffer,
+}
+
+impl Rooms {
+    /// For so many slots and images, with `width` bytes a place.
+    fn new(
+        device: &Device,
+        (slots, size): (usize, usize),
+        (pairs, of_slots, width): (usize, &[u32], usize),
+    ) -> Result<Self, Error> {
+        let words = |count: usize| device.room(LISTS, 4 * count);
+        let members = words(of_slots.len() + size - slots)?;
+        device.write(&members, &pack_indices(of_slots));
+        Ok(Self {
+            size,
+            // Along a curve three words of a slot.
+            keys: words(size.max(3 * slots))?,
+            orders: [words(size)?, words(size)?],
+            counts: words(Sort::room(size).max(Scan::room(pairs + 1) + 1))?,
+            members,
+            places: device.room(LISTS, width * size)?,
+        })
+    }
 }
 
 #[derive(Debug)]
 struct Kernels {
     remember: Kernel,
+    /// What lets particles re-enter, where they have images.
+    re_enter: Option<Kernel>,
+    places: Kernel,
     keys: Kernel,
     starts: Kernel,
     count: Kernel,
@@ -61,23 +95,29 @@ struct Kernels {
 }
 
 impl Kernels {
-    fn new(device: &Device, around: &Around<'_>) -> Result<Self, Error> {
+    fn new(device: &Device, around: &Around<'_>, re_entry: Option<String>) -> Result<Self, Error> {
         let kernel = |name: &str, buffers: &[Array], body: &str| {
             device.kernel(("lists", name), (around.dialect, buffers), body)
         };
-        let [state, grid] = ["state", "grid"].map(Array::numbers);
+        let [state, grid, places] = ["state", "grid", "places"].map(Array::numbers);
         let [members, sorted, cells] = ["members", "sorted", "cells"].map(Array::indices);
         let [keys, order, counts] = ["keys", "order", "counts"].map(Array::indices);
         let [other, segments, list] = ["other", "segments", "list"].map(Array::indices);
         let [given, room, made] = ["given", "room", "made"].map(Array::numbers);
-        let near = [state, members, sorted, cells, grid];
+        let (images, transforms) = (Array::indices("images"), Array::numbers("transforms"));
+        let near = [places, members, sorted, cells, grid];
         let count = [&near[..], &[counts.written()]].concat();
         let fill = [&near[..], &[counts, segments.written(), list.written()]].concat();
-        let of_keys = [state, members, grid, keys.written(), order.written()];
-        let curve = [&of_keys[..], &[other.written()]].concat();
+        let of_keys = [members, grid, keys.written(), order.written()];
+        let cell = [&[places][..], &of_keys].concat();
+        let curve = [&[state][..], &of_keys, &[other.written()]].concat();
+        let through = [state.written(), images, transforms];
+        let re_enter = re_entry.map(|text| kernel("re-entry", &through, &text));
         Ok(Self {
             remember: kernel("places", &[state.written()], &around.remember())?,
-            keys: kernel("cells", &of_keys, &around.keys())?,
+            re_enter: re_enter.transpose()?,
+            places: kernel("of slots", &[state, places.written()], &around.places())?,
+            keys: kernel("cells", &cell, &around.keys())?,
             starts: kernel("starts", &[keys, sorted, cells.written()], &around.starts())?,
             count: kernel("counts", &count, &around.neighbours(false))?,
             fill: kernel("neighbours", &fill, &around.neighbours(true))?,
@@ -92,11 +132,38 @@ impl Kernels {
     }
 }
 
+/// The text that lets particles re-enter, whose places are then those that lists are built for.
+fn re_entry<T: Real, const D: usize>(
+    host: &Offloaded<T, D>,
+    (group, sizes): (usize, &Sizes),
+    around: &Around<'_>,
+) -> Result<String, Error> {
+    let (fields, record) = host.re_entry(group).map_err(|error| Error::Recorded {
+        part: Part {
+            kind: "lists",
+            name: "re-entry".into(),
+        },
+        what: error.what,
+    })?;
+    let layout = &sizes.layout;
+    let columns = fields
+        .iter()
+        .flat_map(|field| (0..D).map(move |d| layout.field(field, d)));
+    let columns = columns.map(|at| (at, format!("state[{at}u + source]")));
+    let columns: Vec<_> = columns.collect();
+    let mut text = transformed(&columns, &record, (D, around.dialect));
+    // Places are the first of what changes.
+    for (d, (_, place)) in columns.iter().take(D).enumerate() {
+        text += &format!("state[{}u + source] = {place};\n", layout.listed(d));
+    }
+    Ok(text)
+}
+
 impl Builder {
-    pub fn new(
+    pub fn new<T: Real, const D: usize>(
         device: &Device,
-        (sizes, members): (&Sizes, &[u32]),
-        (state, precision): (&Buffer, Precision),
+        (host, group, sizes): (&Offloaded<T, D>, usize, &Sizes),
+        precision: Precision,
     ) -> Result<Self, Error> {
         let (layout, blocks) = (&sizes.layout, sizes.blocks);
         let around = Around {
@@ -109,69 +176,86 @@ impl Builder {
         let pairs = slots / sizes.cluster * blocks;
         // At least so many that small scenes have all of their cells.
         let table = (CELLS * slots + 1024) / blocks;
-        let kernels = Kernels::new(device, &around)?;
+        let shows_images = host.shows_images(group);
+        let re_entry = shows_images.then(|| re_entry(host, (group, sizes), &around));
+        let kernels = Kernels::new(device, &around, re_entry.transpose()?)?;
         let sort = Sort::new(device, around.dialect)?;
         let words = |count: usize| device.room(LISTS, 4 * count);
-        let keys = words(3 * slots)?;
-        let orders = [words(slots)?, words(slots)?];
-        let counts = words(Sort::room(slots).max(Scan::room(pairs + 1) + 1))?;
-        let cells = words(table * blocks + 1)?;
-        let grid = device.room(LISTS, around.numbers() * precision.bytes())?;
+        let of_slots = host.members(group);
+        let bytes = around.width() * precision.bytes();
+        let rooms = Rooms::new(device, (slots, slots), (pairs, &of_slots, bytes))?;
         // What of lists does not change: each cluster has a segment for each block.
-        let firsts = members[..slots].iter().step_by(sizes.cluster);
+        let firsts = of_slots[blocks * blocks..].iter().step_by(sizes.cluster);
         let block = |own: u32| if own < blocks as u32 { own } else { 0 };
         let all = firsts.enumerate();
         let all = all.flat_map(|(k, own)| [(k * blocks) as u32, block(*own)]);
         let clusters: Vec<u32> = all.chain([pairs as u32, 0]).collect();
         let segments = (0..pairs).flat_map(|own| [0, 0, (own % blocks) as u32]);
         let segments: Vec<u32> = segments.collect();
-        let members = device.upload(LISTS, &pack_indices(members))?;
-        let of_sort = Sorted {
-            keys: &keys,
-            orders: [&orders[0], &orders[1]],
-            counts: &counts,
-            slots,
-            count: slots,
-        };
-        let buffers = [state, &members, &grid, &keys, &orders[0]];
-        let mut counted = vec![device.bind(&kernels.keys, &buffers, slots)];
-        let bits = usize::BITS - (table * blocks).leading_zeros();
-        let passes: Vec<_> = (0..digits(bits as usize)).map(|k| (0, k)).collect();
-        let (passes, sorted) = sort.bind(device, of_sort, &passes);
-        counted.extend(passes);
-        let extent = Extent {
-            count: table * blocks + 1,
-            length: slots,
-            ..Extent::default()
-        };
-        let by_cell = &orders[sorted];
-        counted.push(device.bind_over(&kernels.starts, &[&keys, by_cell, &cells], extent));
-        let buffers = [state, &members, by_cell, &cells, &grid, &counts];
-        counted.push(device.bind(&kernels.count, &buffers, pairs));
-        counted.extend(sort.scan.bind(device, &counts, pairs + 1));
         let first = layout.listed(0) / slots;
-        let last = first + layout.dimensions + usize::from(layout.varies());
-        let finds = (first..last).map(Find::Least);
-        let finds: Vec<_> = finds.chain((first..last).map(Find::Most)).collect();
+        let finds = (first..first + around.width()).map(Find::Least);
+        let finds = finds.chain((first..first + around.width()).map(Find::Most));
         Ok(Self {
-            bounds: Reduction::new(device, &finds, precision)?,
+            bounds: Reduction::new(device, &finds.collect::<Vec<_>>(), precision)?,
             clusters: device.upload(LISTS, &pack_indices(&clusters))?,
             segments: device.upload(LISTS, &pack_indices(&segments))?,
             list: words(0)?,
             room: 0,
             kernels,
             sort,
-            counted,
-            keys,
-            orders,
-            counts,
-            members,
-            cells,
-            sorted,
-            grid,
+            of_slots,
+            rooms,
+            cells: words(table * blocks + 1)?,
+            grid: device.room(LISTS, around.numbers() * precision.bytes())?,
             table,
+            blocks,
             pairs,
         })
+    }
+
+    /// Kernels that count the neighbours of slots, with some images behind them; and the order of both by their cells.
+    fn counted(
+        &self,
+        device: &Device,
+        state: &Buffer,
+        (slots, count): (usize, usize),
+    ) -> (Vec<Bound>, Buffer) {
+        let (rooms, kernels, cells) = (&self.rooms, &self.kernels, self.table * self.blocks);
+        let [first, second] = &rooms.orders;
+        let buffers = [
+            &rooms.places,
+            &rooms.members,
+            &self.grid,
+            &rooms.keys,
+            first,
+        ];
+        let mut all = vec![
+            device.bind(&kernels.places, &[state, &rooms.places], slots),
+            device.bind(&kernels.keys, &buffers, count),
+        ];
+        let bits = usize::BITS - cells.leading_zeros();
+        let passes: Vec<_> = (0..digits(bits as usize)).map(|k| (0, k)).collect();
+        let of_sort = Sorted {
+            keys: &rooms.keys,
+            orders: [first, second],
+            counts: &rooms.counts,
+            slots,
+            count,
+        };
+        let (passes, sorted) = self.sort.bind(device, of_sort, &passes);
+        all.extend(passes);
+        let extent = Extent {
+            count: cells + 1,
+            length: count,
+            ..Extent::default()
+        };
+        let sorted = &rooms.orders[sorted];
+        all.push(device.bind_over(&kernels.starts, &[&rooms.keys, sorted, &self.cells], extent));
+        let near = [&rooms.places, &rooms.members, sorted, &self.cells];
+        let buffers = [&near[..], &[&self.grid, &rooms.counts]].concat();
+        all.push(device.bind(&kernels.count, &buffers, self.pairs));
+        all.extend(self.sort.scan.bind(device, &rooms.counts, self.pairs + 1));
+        (all, sorted.clone())
     }
 }
 
@@ -185,14 +269,60 @@ impl<T: Real, const D: usize> Run<T, D> {
         let (state, slots) = (&own.memory.state, own.sizes.layout.slots);
         let remember = self.device.bind(&builder.kernels.remember, &[state], slots);
         self.device.launch(&[&remember]);
+        let mut places = None;
+        if self.host.shows_images(group) {
+            let Some(own) = self.re_enter(group, builder, time)? else {
+                return Ok(false);
+            };
+            places = Some(own);
+        }
         let bounds = self.bounds(group, builder)?;
         if !self.host.can_list(&bounds) {
             return Ok(false);
         }
         let sorts = self.host.begin_lists(group, time);
         let search = self.host.search(group, &bounds);
-        self.list(group, &search, sorts)?;
+        let order = if sorts {
+            self.sort(group, &search)?
+        } else {
+            Vec::new()
+        };
+        if let Some(places) = places {
+            let of = |n: usize| {
+                order
+                    .get(n % slots)
+                    .map_or(n, |own| n - n % slots + *own as usize)
+            };
+            let places: Vec<_> = (0..places.len()).map(|n| places[of(n)]).collect();
+            self.host.show_images(group, &places, &bounds);
+        }
+        self.list(group, bounds, sorts)?;
         Ok(true)
+    }
+
+    /// Lets what has left a period re-enter. Gives places, with smoothing lengths where they vary; none if the host has to do that.
+    fn re_enter(
+        &self,
+        group: usize,
+        builder: &Builder,
+        time: f64,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        let (own, device) = (&self.groups[group], &self.device);
+        let (layout, state) = (&own.sizes.layout, &own.memory.state);
+        let first = layout.listed(0);
+        let mut places = self.read_at(state, first, layout.numbers() - first)?;
+        let Some(found) = self.host.re_entered(group, &mut places, time) else {
+            return Ok(None);
+        };
+        if let (Some(kernel), false) = (&builder.kernels.re_enter, found.entries.is_empty()) {
+            let entries = device.upload(LISTS, &pack_indices(&found.entries))?;
+            let transforms = self.numbers(found.transforms.into_iter());
+            let transforms = device.upload(LISTS, &transforms)?;
+            let buffers = [state, &entries, &transforms];
+            let count = found.entries.len() / 2;
+            device.launch(&[&device.bind(kernel, &buffers, count)]);
+        }
+        Ok(Some(places))
     }
 
     /// Builds lists for the places for which the host has listed; whether the device does that.
@@ -204,8 +334,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         if !self.host.can_list(&bounds) {
             return Ok(false);
         }
-        let search = self.host.search(group, &bounds);
-        self.list(group, &search, false)?;
+        self.list(group, bounds, false)?;
         Ok(true)
     }
 
@@ -227,51 +356,65 @@ impl<T: Real, const D: usize> Run<T, D> {
         Ok(Bounds { range, lengths })
     }
 
-    /// Sorts particles of a group if asked to, and lists neighbours.
-    fn list(&mut self, group: usize, search: &Search<D>, sorts: bool) -> Result<(), Error> {
-        let own = &self.groups[group];
-        let Some(builder) = &own.builder else {
-            return Ok(());
-        };
+    /// Tells the device where neighbours are looked for.
+    fn look_in(&self, builder: &Builder, search: &Search<D>) {
         let table = folded(search.cells.counts, builder.table);
         let all = numbers(search, table, self.precision);
         self.device
             .write(&builder.grid, &self.numbers(all.into_iter()));
-        if sorts {
-            let order = self.sort(group, builder, D * search.order.bits as usize)?;
-            self.host.sorted(group, &order);
-            self.follow();
+    }
+
+    /// Lists the neighbours of a group, images of which the host has found among them.
+    fn list(&mut self, group: usize, bounds: Bounds<D>, sorts: bool) -> Result<(), Error> {
+        let bounds = self.host.bounds_with_images(group, bounds);
+        let search = self.host.search(group, &bounds);
+        let shows_images = self.host.shows_images(group);
+        let (images, transforms) = (self.host.images(group), self.host.transforms(group));
+        let transforms = self.numbers(transforms.into_iter());
+        let (places, blocks) = self.host.listed_images(group);
+        let places = self.numbers(places.into_iter());
+        if let Some(builder) = &self.groups[group].builder {
+            self.look_in(builder, &search);
         }
-        let Self {
-            device,
-            groups,
-            host,
-            ..
-        } = self;
-        let own = &mut groups[group];
+        let (own, device) = (&mut self.groups[group], &self.device);
         let Some(builder) = &mut own.builder else {
             return Ok(());
         };
-        device.launch(&builder.counted.iter().collect::<Vec<_>>());
-        let entries = device.download(&builder.counts, 4 * builder.pairs, 4)?;
+        let slots = own.sizes.layout.slots;
+        let count = slots + blocks.len();
+        if !blocks.is_empty() {
+            let width = places.len() / blocks.len();
+            if count > builder.rooms.size {
+                let size = (slots, count + blocks.len() / 8);
+                let of = (builder.pairs, &builder.of_slots[..], width);
+                builder.rooms = Rooms::new(device, size, of)?;
+            }
+            let (rooms, at) = (&builder.rooms, 4 * builder.of_slots.len());
+            device.write_at(&rooms.members, at, &pack_indices(&blocks));
+            device.write_at(&rooms.places, slots * width, &places);
+        }
+        let (counted, sorted) = builder.counted(device, &own.memory.state, (slots, count));
+        device.launch(&counted.iter().collect::<Vec<_>>());
+        let rooms = &builder.rooms;
+        let entries = device.download(&rooms.counts, 4 * builder.pairs, 4)?;
         let entries = entries.iter().rev();
         let entries = entries.fold(0, |sum, byte| sum << 8 | usize::from(*byte));
-        host.listed_there(group, entries, sorts);
+        self.host.listed_there(group, entries, sorts);
         if entries > builder.room {
             builder.room = entries + entries / 8;
             builder.list = device.room(LISTS, 4 * builder.room)?;
         }
         let m = &mut own.memory;
-        if !m.list.is(&builder.list) {
+        if shows_images || !m.list.is(&builder.list) {
             m.list = builder.list.clone();
             m.clusters = builder.clusters.clone();
             m.segments = builder.segments.clone();
+            let of = (None, &images[..], &transforms[..]);
             own.compiled
-                .bind(device, m, (&own.sizes, &own.program), (None, &[], &[]))?;
+                .bind(device, m, (&own.sizes, &own.program), of)?;
         }
-        let sorted = &builder.orders[builder.sorted];
-        let near = [&m.state, &builder.members, sorted, &builder.cells];
-        let rest = [&builder.grid, &builder.counts, &m.segments, &m.list];
+        let near = [&rooms.places, &rooms.members, &sorted, &builder.cells];
+        let rest = [&builder.grid, &rooms.counts, &m.segments, &m.list];
         let buffers = [near, rest].concat();
         let fill = device.bind(&builder.kernels.fill, &buffers, builder.pairs);
         device.launch(&[&fill]);
@@ -279,15 +422,28 @@ impl<T: Real, const D: usize> Run<T, D> {
     }
 
     /// Sorts particles by their place along the curve, and moves all that the device has of them. Gives their order.
-    fn sort(&self, group: usize, builder: &Builder, bits: usize) -> Result<Vec<u32>, Error> {
+    fn sort(&mut self, group: usize, search: &Search<D>) -> Result<Vec<u32>, Error> {
+        let order = self.sorted(group, search)?;
+        self.host.sorted(group, &order);
+        self.follow();
+        Ok(order)
+    }
+
+    fn sorted(&self, group: usize, search: &Search<D>) -> Result<Vec<u32>, Error> {
+        let (own, device) = (&self.groups[group], &self.device);
+        let Some(builder) = &own.builder else {
+            return Ok(Vec::new());
+        };
         let Some(curve) = &builder.kernels.curve else {
             return Ok(Vec::new());
         };
-        let (own, device) = (&self.groups[group], &self.device);
+        self.look_in(builder, search);
+        let bits = D * search.order.bits as usize;
         let (m, layout) = (&own.memory, &own.sizes.layout);
         let (slots, mobile) = (layout.slots, layout.mobile);
-        let [first, second] = &builder.orders;
-        let buffers = [&m.state, &builder.members, &builder.grid, &builder.keys];
+        let rooms = &builder.rooms;
+        let [first, second] = &rooms.orders;
+        let buffers = [&m.state, &rooms.members, &builder.grid, &rooms.keys];
         let buffers = [&buffers[..], &[first, second]].concat();
         let mut all = vec![device.bind(curve, &buffers, slots)];
         let passes = (0..digits(bits)).map(|k| (k / WORD, k % WORD));
@@ -295,16 +451,16 @@ impl<T: Real, const D: usize> Run<T, D> {
         let by_body = (bodies.count() > 1).then_some((BLOCK, 0));
         let passes: Vec<_> = passes.chain(by_body).collect();
         let of_sort = Sorted {
-            keys: &builder.keys,
+            keys: &rooms.keys,
             orders: [first, second],
-            counts: &builder.counts,
+            counts: &rooms.counts,
             slots,
             count: mobile,
         };
         let (passes, at) = builder.sort.bind(device, of_sort, &passes);
         all.extend(passes);
-        let order = &builder.orders[at];
-        all.push(device.bind(&builder.kernels.repeats, &[&builder.members, order], mobile));
+        let order = &rooms.orders[at];
+        all.push(device.bind(&builder.kernels.repeats, &[&rooms.members, order], mobile));
         // Records are packed before each sweep: their room is free.
         let room = own.compiled.widths[0];
         let columns = [

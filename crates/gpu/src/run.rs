@@ -70,12 +70,10 @@ impl Group {
         };
         let compiled = Compiled::new(device, &program, &sizes, precision)?;
         let memory = compiled.room(device, &sizes, &program)?;
-        let members = host.builds_lists(number).then(|| host.members(number));
-        let builder = |members: Vec<u32>| {
-            Builder::new(device, (&sizes, &members), (&memory.state, precision))
-        };
+        let builds = host.builds_lists(number);
+        let builder = builds.then(|| Builder::new(device, (host, number, &sizes), precision));
         Ok(Self {
-            builder: members.map(builder).transpose()?,
+            builder: builder.transpose()?,
             memory,
             program,
             sizes,

@@ -7,7 +7,7 @@ use crate::scalar::Real;
 use crate::sweep::Interaction;
 
 /// Most blocks of a group whose lists a device builds: it looks for neighbours in each by itself.
-const MOST_BLOCKS: usize = 8;
+const MOST_BLOCKS: usize = 32;
 
 /// By how much smoothing lengths may differ: cells are as wide as the widest support asks for. At the corner of a gas in a vacuum they are
 /// twice those of its middle.
@@ -60,38 +60,42 @@ pub struct Search<const D: usize> {
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
-    /// Whether a device may build the lists of a group: of present neighbours, without images, without walls that are bodies of other
-    /// groups, and in few blocks.
+    /// Whether a device may build the lists of a group: of present neighbours, without walls that are bodies of other groups, and in
+    /// few blocks.
     #[must_use]
     pub fn builds_lists(&self, group: usize) -> bool {
         let (own, program) = (
             &self.simulation.state.groups[group],
             &self.recorded[group].program,
         );
-        own.is_open()
+        own.outlets.is_empty()
             && !program.moved.is_empty()
             && program.follows.is_empty()
             && own.neighborhood.blocks.len() <= MOST_BLOCKS
     }
 
-    /// Of each slot its block; where it repeats the last particle of one, the number of blocks and the slot of that. Behind them a one
-    /// for each two blocks `a` and `b` if particles of `a` list those of `b`, at `a * blocks + b`.
+    /// A one for each two blocks `a` and `b` if particles of `a` list those of `b`, at `a * blocks + b`. Behind them of each slot its block;
+    /// where it repeats the last particle of one, the number of blocks and the slot of that.
     #[must_use]
     pub fn members(&self, group: usize) -> Vec<u32> {
-        let near = &self.simulation.state.groups[group].neighborhood;
+        let (near, slots) = (
+            &self.simulation.state.groups[group].neighborhood,
+            self.recorded[group].layout.slots,
+        );
         let count = near.blocks.len();
-        let mut all = Vec::new();
-        for (number, block) in near.blocks.iter().enumerate() {
-            let repeated = all.len().saturating_sub(1);
-            all.resize(block.slots.start, (count + repeated) as u32);
-            all.resize(block.slots.end, number as u32);
+        let listed = near.interactions.iter();
+        let mut all: Vec<u32> = listed
+            .map(|own| u32::from(*own != Interaction::None))
+            .collect();
+        all.resize(count * count, 1);
+        let table = all.len();
+        let repeated = |all: &Vec<u32>| (count + all.len().saturating_sub(table + 1)) as u32;
+        let own = near.blocks.iter().enumerate();
+        for (number, block) in own.filter(|(_, block)| block.slots.start < slots) {
+            all.resize(table + block.slots.start, repeated(&all));
+            all.resize(table + block.slots.end, number as u32);
         }
-        let repeated = all.len().saturating_sub(1);
-        let slots = self.recorded[group].layout.slots;
-        all.resize(slots, (count + repeated) as u32);
-        let interactions = near.interactions.iter();
-        all.extend(interactions.map(|own| u32::from(*own != Interaction::None)));
-        all.resize(slots + count * count, 1);
+        all.resize(table + slots, repeated(&all));
         all
     }
 

@@ -26,6 +26,7 @@ mod vote;
 
 pub use clock::{Advance, Moment};
 pub use contacts::{ContactSide, ContactStep, PairStep, Summed};
+pub use images::ReEntries;
 pub use lists::{Bounds, CellGrid, Search};
 pub use partners::Partners;
 pub use program::{

@@ -215,6 +215,24 @@ fn wave<T: Real>(fused: bool) -> Scene<T, 2> {
     on(scene, fused)
 }
 
+/// Gas that swirls between four planes, whose images become fewer and more.
+fn between_planes(fused: bool) -> Scene<f64, 2> {
+    let gas = IdealGas::new(1.4, 1.0);
+    let body = Body::block("gas", Material::new("gas", gas), [0.0; 2], [1.0; 2], 0.025);
+    let swirl = move |[x, y]: [f64; 2], start: Start<2>| Start {
+        velocity: [0.3 * (TAU * y).sin(), 0.3 * (TAU * x).cos()],
+        energy: gas.energy(1.0, 1.0),
+        ..start
+    };
+    let mut scene = Scene::new(schemes::gas()).body(body.start(swirl));
+    for (at, out) in [(0.0, -1.0), (1.0, 1.0)] {
+        scene = scene
+            .boundary(MirrorPlane::wall([at, 0.0], [out, 0.0]))
+            .boundary(MirrorPlane::wall([0.0, at], [0.0, out]));
+    }
+    on(scene, fused)
+}
+
 #[test]
 fn a_gas_through_periods_is_that_of_the_host() {
     let Some(device) = device("a gas through periods") else {
@@ -222,6 +240,7 @@ fn a_gas_through_periods_is_that_of_the_host() {
     };
     in_double(&device, "Wave", wave::<f64>, 200);
     in_both(&device, "Wave", wave::<f64>, || wave::<f32>(false), 40);
+    in_double(&device, "Between planes", between_planes, 60);
 }
 
 /// Copper that yields.

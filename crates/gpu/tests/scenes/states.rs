@@ -1,5 +1,5 @@
 //! Integrators that keep states, on the device as on the host: Runge–Kutta of gases and solids, and one of a user.
-//! Kept states follow what list builds do, those of the device and those of the host where there are images.
+//! Kept states follow what list builds do, those of the device and those of the host where particles re-enter.
 
 use crate::common::{device, in_any_groups};
 use crate::compare::{in_both, in_double, on, on_device, on_host, resumed};
@@ -15,7 +15,7 @@ use meshfree::simulation::ParticleView;
 use meshfree::term::{In, VelocityGradient, stage};
 use std::f64::consts::TAU;
 
-/// A rod through a period, whose lists the host builds.
+/// A rod through a period, whose lists the host builds where something re-enters.
 fn rod<T: Real>(fused: bool) -> Scene<T, 1> {
     let body = Body::block("rod", catalogue::copper::<T>(), [0.0], [0.01], 5e-6);
     let body = body.start(|[x], start| Start {
@@ -158,6 +158,39 @@ fn runge_kutta_is_that_of_the_host() {
     let (own, most) = (apart(&found, &host), apart(&fused, &host));
     println!("fibres: {own:e}, host {most:e}");
     assert!(own <= 20.0 * most && apart(&start, &host) > 0.01);
+}
+
+/// Two pairs of bars that turn, each pair a group under a scheme of its own.
+fn bars(fused: bool) -> Scene<f64, 2> {
+    let bar = |name: &str, low: [f64; 2], turns: f64| {
+        let [high, middle] = [0.02, 0.01].map(|by| low.map(|x| x + by));
+        let bar = Body::block(name, catalogue::copper(), low, high, 1e-3);
+        bar.start(move |[x, y], start| Start {
+            velocity: [
+                turns * (middle[1] - y) + 20.0 * (80.0 * x).sin(),
+                turns * (x - middle[0]),
+            ],
+            ..start
+        })
+    };
+    let form = EnergyForm::Symmetric;
+    let pair = [bar("c", [0.1, 0.0], 4000.0), bar("d", [0.1, 0.024], 2000.0)];
+    let mut scene = Scene::new(schemes::impact().energy(form))
+        .body(bar("a", [0.0; 2], 3000.0))
+        .body(bar("b", [0.024, 0.0], -4000.0))
+        .group(schemes::impact_by_continuity().energy(form), pair);
+    for (own, other) in [("a", "c"), ("a", "d"), ("b", "c"), ("b", "d")] {
+        scene = scene.between(own, other, Interaction::None);
+    }
+    on(scene.integrator(RungeKutta4), fused)
+}
+
+#[test]
+fn groups_keep_states_of_their_own() {
+    let Some(device) = device("kept states of groups") else {
+        return;
+    };
+    in_double(&device, "Bars", bars, 60);
 }
 
 /// It keeps a state, and predicts.
