@@ -6,10 +6,14 @@ mod cuda;
 mod vulkan;
 
 use crate::kernel::{Array, Frame, THREADS};
+use crate::split::MOST_ARRAYS;
 use crate::{Dialect, Error, Language, Part, Precision};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use vulkan::Vulkan;
+
+/// Bytes of whose multiples a binding may start.
+const ALIGNED: u64 = 256;
 
 /// What [`Device::list`] says about an adapter.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +28,8 @@ pub struct Adapter {
     pub double: bool,
     /// Bytes that a kernel can bind as one array.
     pub most_bound: u64,
+    /// Arrays that a kernel can bind. An array beyond [`most_bound`](Self::most_bound) is bound as several.
+    pub arrays: u32,
 }
 
 /// A device that kernels run on.
@@ -251,6 +257,7 @@ impl Device {
             driver: String::new(),
             double: true,
             most_bound: u64::MAX,
+            arrays: u32::MAX,
         };
         Self::driven(Driver::Text(language, Arc::default()), adapter)
     }
@@ -327,7 +334,7 @@ impl Device {
         self.traffic[what].fetch_add(by, Ordering::Relaxed);
     }
 
-    /// Refuses a kernel that was made for another device, or for the same one opened another time.
+    /// Refuses a kernel that was made for another device, or by Vulkan for the same one opened another time.
     pub(crate) fn owns(&self, kernel: &Kernel) -> Result<(), Error> {
         let owns = match (&self.driver, kernel) {
             (Driver::Vulkan(own), Kernel::Vulkan(kernel)) => own.owns(kernel),
@@ -362,28 +369,36 @@ impl Device {
             name: "kernel",
             buffers,
         };
-        let source = frame.source(body, self.threads);
         let part = Part {
             kind,
             name: name.into(),
         };
         let made = match &self.driver {
-            Driver::Vulkan(own) => own
-                .kernel(&source, buffers, self.threads)
-                .map(Kernel::Vulkan),
+            Driver::Vulkan(own) => own.kernel(&frame, body, self.threads).map(Kernel::Vulkan),
             #[cfg(feature = "cuda")]
-            Driver::Cuda(own) => own.kernel(&source, self.threads).map(Kernel::Cuda),
+            Driver::Cuda(own) => {
+                let source = frame.source(body, self.threads);
+                own.kernel(&source, self.threads).map(Kernel::Cuda)
+            }
             Driver::Text(_, all) => {
                 let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
-                all.push((part.to_string(), source));
+                all.push((part.to_string(), frame.source(body, self.threads)));
                 Ok(Kernel::Text)
             }
         };
         made.map_err(|message| Error::Kernel { part, message })
     }
 
+    /// Bytes of a part of what is bound in parts: they start at multiples that all drivers take.
+    fn part(&self) -> u64 {
+        self.adapter.most_bound / ALIGNED * ALIGNED
+    }
+
     fn fits(&self, what: &'static str, bytes: u64) -> Result<(), Error> {
-        let most = self.adapter.most_bound;
+        // So that a kernel whose arrays all have so many parts can bind them.
+        let parts = u64::from(self.adapter.arrays / MOST_ARRAYS);
+        let most = self.part().saturating_mul(parts);
+        let most = most.max(self.adapter.most_bound);
         if bytes > most {
             return Err(Error::TooLarge { what, bytes, most });
         }
@@ -439,7 +454,8 @@ impl Device {
         match &self.driver {
             Driver::Vulkan(own) => {
                 let buffers: Vec<_> = buffers.iter().map(|own| own.vulkan()).collect();
-                Bound::Vulkan(own.bind(kernel.vulkan(), &buffers, extent))
+                let most = [self.adapter.most_bound, self.part()];
+                Bound::Vulkan(own.bind(kernel.vulkan(), &buffers, extent, most))
             }
             #[cfg(feature = "cuda")]
             Driver::Cuda(own) => {

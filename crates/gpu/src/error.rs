@@ -54,7 +54,7 @@ pub enum Error {
     },
     /// An array needs more memory than the device binds at once.
     #[error(
-        "{what} takes {bytes} bytes, and the device binds {most} at once; take fewer particles, or an adapter with larger bindings"
+        "{what} takes {bytes} bytes, and the device binds {most} of an array; take fewer particles, or an adapter with larger bindings"
     )]
     TooLarge {
         /// What it is.

@@ -1,6 +1,7 @@
 //! What stands around the body of a kernel in each language: its buffers, its place among threads, and functions that it calls.
 //! Bodies are made of the few statements that both languages have.
 
+use crate::split::{functions, names, through_functions};
 use crate::{Dialect, Language, Precision, elementary};
 
 /// Threads of a work group.
@@ -46,8 +47,13 @@ pub struct Frame<'a> {
 }
 
 impl Frame<'_> {
-    /// The whole text with a body.
+    /// The whole text with a body, each array being bound as one.
     pub fn source(&self, body: &str, threads: u32) -> String {
+        self.source_in_parts(body, threads, (&[], 0))
+    }
+
+    /// The same in WGSL with arrays that are bound in parts of so many bytes: how many each has, one where that is not said.
+    pub fn source_in_parts(&self, body: &str, threads: u32, parts: (&[u64], u64)) -> String {
         let Self {
             dialect,
             name,
@@ -57,15 +63,28 @@ impl Frame<'_> {
         let arrays = buffers.iter();
         match dialect.language {
             Language::Wgsl => {
-                let arrays = arrays.enumerate().map(|(n, own)| {
+                let (mut declared, mut body) = (String::new(), body.to_string());
+                let mut binding = 0;
+                for (n, own) in arrays.enumerate() {
                     let access = if own.writable { "read_write" } else { "read" };
                     let of = if own.numbers { t } else { "u32" };
-                    let n = n + 1;
-                    format!(
-                        "@group(0) @binding({n}) var<storage, {access}> {}: array<{of}>;\n",
-                        own.name
-                    )
-                });
+                    let count = parts.0.get(n).copied().unwrap_or(1);
+                    for name in names(own.name, count) {
+                        binding += 1;
+                        declared += &format!(
+                            "@group(0) @binding({binding}) var<storage, {access}> {name}: array<{of}>;\n"
+                        );
+                    }
+                    if count > 1 {
+                        let bytes = if own.numbers {
+                            dialect.precision.bytes() as u64
+                        } else {
+                            4
+                        };
+                        declared += &functions(own, of, (count, parts.1 / bytes));
+                        body = through_functions(&body, own.name);
+                    }
+                }
                 let (bits, endless, undefined) = match dialect.precision {
                     Precision::Single => ("u32", "0x7f800000u", "0x7fc00000u"),
                     Precision::Double => ("u64", "0x7ff0000000000000lu", "0x7ff8000000000000lu"),
@@ -93,7 +112,7 @@ if (n >= scene.count) {{ return; }}
 let i = n + scene.first;
 {}{}{body}}}
 ",
-                    arrays.collect::<String>(),
+                    declared,
                     special("endless", endless),
                     special("undefined", undefined),
                 )

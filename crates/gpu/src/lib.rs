@@ -54,6 +54,7 @@ mod reduce;
 mod rounding;
 mod run;
 mod sort;
+mod split;
 mod stepping;
 mod transfer;
 

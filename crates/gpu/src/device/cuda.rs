@@ -65,6 +65,7 @@ impl Card {
             ),
             double: true,
             most_bound: most.unwrap_or(0) as u64,
+            arrays: 1,
         }
     }
 }

@@ -2,12 +2,13 @@
 //! Kernels are in WGSL.
 
 use super::{Adapter, Extent};
-use crate::Error;
-use crate::kernel::Array;
+use crate::kernel::{Array, Frame};
+use crate::{Dialect, Error};
 use pollster::block_on;
-use std::sync::Arc;
+use std::num::NonZeroU64;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use wgpu::util::{BufferInitDescriptor, DeviceExt};
-use wgpu::{Backends, BufferUsages, Features};
+use wgpu::{Backends, BindingResource, BufferUsages, Features};
 
 /// What `f64` needs: numbers, and the integers that their bits are moved as.
 const DOUBLE: Features = Features::SHADER_F64.union(Features::SHADER_INT64);
@@ -28,6 +29,7 @@ pub fn describe(adapter: &wgpu::Adapter) -> Adapter {
         most_bound: limits
             .max_storage_buffer_binding_size
             .min(limits.max_buffer_size),
+        arrays: limits.max_storage_buffers_per_shader_stage,
     }
 }
 
@@ -50,15 +52,28 @@ pub struct Vulkan {
     most_groups: u32,
     /// Its own where it is opened: devices of two instances count alike.
     opened: Arc<()>,
+    /// Why a kernel of arrays in parts could not be compiled.
+    failed: Arc<Mutex<Option<String>>>,
 }
 
 /// A compiled kernel.
 #[derive(Debug)]
 pub struct Kernel {
     opened: Arc<()>,
+    made: Made,
+    threads: u32,
+    /// Its text, and what was compiled of it for arrays in parts.
+    dialect: Dialect,
+    buffers: Vec<Array>,
+    body: String,
+    in_parts: Mutex<Vec<(Vec<u64>, Made)>>,
+}
+
+/// What a text was compiled to.
+#[derive(Clone, Debug)]
+struct Made {
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
-    threads: u32,
 }
 
 /// A kernel with what it works on.
@@ -84,6 +99,7 @@ impl Vulkan {
             queue,
             most_groups,
             opened: Arc::default(),
+            failed: Arc::default(),
         })
     }
 
@@ -96,7 +112,45 @@ impl Vulkan {
     }
 
     /// Compiles a kernel, unless the driver refuses it.
-    pub fn kernel(&self, source: &str, buffers: &[Array], threads: u32) -> Result<Kernel, String> {
+    pub fn kernel(&self, frame: &Frame<'_>, body: &str, threads: u32) -> Result<Kernel, String> {
+        let source = frame.source(body, threads);
+        let writable = frame.buffers.iter().map(|own| own.writable);
+        Ok(Kernel {
+            opened: self.opened.clone(),
+            made: self.compile(&source, &writable.collect::<Vec<_>>())?,
+            threads,
+            dialect: frame.dialect,
+            buffers: frame.buffers.to_vec(),
+            body: body.into(),
+            in_parts: Mutex::default(),
+        })
+    }
+
+    /// A kernel for arrays of so many parts of some bytes each.
+    fn in_parts(&self, kernel: &Kernel, parts: &[u64], bytes: u64) -> Result<Made, String> {
+        let mut all = kernel
+            .in_parts
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let key = [parts, &[bytes]].concat();
+        if let Some((_, made)) = all.iter().find(|own| own.0 == key) {
+            return Ok(made.clone());
+        }
+        let frame = Frame {
+            dialect: kernel.dialect,
+            name: "kernel",
+            buffers: &kernel.buffers,
+        };
+        let source = frame.source_in_parts(&kernel.body, kernel.threads, (parts, bytes));
+        let each = kernel.buffers.iter().zip(parts);
+        let writable = each.flat_map(|(own, parts)| (0..*parts).map(|_| own.writable));
+        let made = self.compile(&source, &writable.collect::<Vec<_>>())?;
+        all.push((key, made.clone()));
+        Ok(made)
+    }
+
+    /// Compiles a text, whose arrays are written or only read.
+    fn compile(&self, source: &str, writable: &[bool]) -> Result<Made, String> {
         let scope = self.inner.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = self
             .inner
@@ -104,7 +158,7 @@ impl Vulkan {
                 label: None,
                 source: wgpu::ShaderSource::Wgsl(source.into()),
             });
-        let entries: Vec<_> = (0..=buffers.len())
+        let entries: Vec<_> = (0..=writable.len())
             .map(|n| wgpu::BindGroupLayoutEntry {
                 binding: n as u32,
                 visibility: wgpu::ShaderStages::COMPUTE,
@@ -112,7 +166,7 @@ impl Vulkan {
                     ty: match n.checked_sub(1) {
                         None => wgpu::BufferBindingType::Uniform,
                         Some(n) => wgpu::BufferBindingType::Storage {
-                            read_only: !buffers[n].writable,
+                            read_only: !writable[n],
                         },
                     },
                     has_dynamic_offset: false,
@@ -145,12 +199,7 @@ impl Vulkan {
                 cache: None,
             });
         match block_on(scope.pop()) {
-            None => Ok(Kernel {
-                opened: self.opened.clone(),
-                pipeline,
-                layout,
-                threads,
-            }),
+            None => Ok(Made { pipeline, layout }),
             Some(error) => Err(error.to_string()),
         }
     }
@@ -174,7 +223,14 @@ impl Vulkan {
         self.queue.write_buffer(buffer, at as u64, bytes);
     }
 
-    pub fn bind(&self, kernel: &Kernel, buffers: &[&wgpu::Buffer], extent: Extent) -> Bound {
+    /// Binds arrays to a kernel, of which those that are larger than `most` bytes in parts of some bytes.
+    pub fn bind(
+        &self,
+        kernel: &Kernel,
+        buffers: &[&wgpu::Buffer],
+        extent: Extent,
+        [most, bytes]: [u64; 2],
+    ) -> Bound {
         let groups = (extent.count as u32).div_ceil(kernel.threads).max(1);
         let across = groups.min(self.most_groups);
         let scene = extent.words(across * kernel.threads);
@@ -183,24 +239,56 @@ impl Vulkan {
             contents: &scene.map(u32::to_ne_bytes).concat(),
             usage: BufferUsages::UNIFORM,
         });
-        let all = core::iter::once(&scene).chain(buffers.iter().copied());
-        let entries: Vec<_> = all
-            .enumerate()
-            .map(|(n, buffer)| wgpu::BindGroupEntry {
+        let parts = |own: &&wgpu::Buffer| match own.size() {
+            size if size > most => size.div_ceil(bytes),
+            _ => 1,
+        };
+        let mut parts: Vec<_> = buffers.iter().map(parts).collect();
+        let mut made = kernel.made.clone();
+        if parts.iter().any(|own| *own > 1) {
+            match self.in_parts(kernel, &parts, bytes) {
+                Ok(own) => made = own,
+                Err(message) => {
+                    // What is read next says so.
+                    self.failed().get_or_insert(message);
+                    parts.fill(1);
+                }
+            }
+        }
+        let part = |buffer, size: u64, k: u64| wgpu::BufferBinding {
+            buffer,
+            offset: k * bytes,
+            size: NonZeroU64::new(bytes.min(size - k * bytes)),
+        };
+        let mut all = vec![scene.as_entire_binding()];
+        for (buffer, parts) in buffers.iter().copied().zip(parts) {
+            let size = buffer.size();
+            match parts {
+                1 if size <= most => all.push(buffer.as_entire_binding()),
+                _ => all.extend((0..parts).map(|k| BindingResource::Buffer(part(buffer, size, k)))),
+            }
+        }
+        let entries = all.into_iter().enumerate();
+        let entries: Vec<_> = entries
+            .map(|(n, resource)| wgpu::BindGroupEntry {
                 binding: n as u32,
-                resource: buffer.as_entire_binding(),
+                resource,
             })
             .collect();
         let group = self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &kernel.layout,
+            layout: &made.layout,
             entries: &entries,
         });
         Bound {
-            pipeline: kernel.pipeline.clone(),
+            pipeline: made.pipeline,
             group,
             groups: [across, groups.div_ceil(across)],
         }
+    }
+
+    fn failed(&self) -> MutexGuard<'_, Option<String>> {
+        self.failed.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     pub fn launch<'a>(&self, kernels: impl Iterator<Item = &'a Bound>) {
@@ -217,6 +305,9 @@ impl Vulkan {
     }
 
     pub fn read(&self, buffer: &wgpu::Buffer, at: usize, size: u64) -> Result<Vec<u8>, String> {
+        if let Some(message) = &*self.failed() {
+            return Err(message.clone());
+        }
         let back = self.inner.create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size,

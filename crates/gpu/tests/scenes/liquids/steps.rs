@@ -6,7 +6,7 @@ use crate::common::{device, in_any_groups};
 use crate::compare::{build, differences, load, on_device, resumed};
 use crate::neighbours;
 use meshfree::prelude::*;
-use meshfree_gpu::Error as GpuError;
+use meshfree_gpu::{Device, Error as GpuError};
 
 #[test]
 fn bits_are_the_same_twice_and_in_any_work_groups() {
@@ -208,4 +208,47 @@ fn a_state_that_breaks_is_named_as_on_the_host() {
         let kind = |text: String| text.split(' ').next().map(String::from);
         assert_eq!(kind(found.to_string()), kind(host.to_string()));
     }
+}
+
+#[test]
+fn arrays_in_parts_give_the_same_bits() {
+    let Some(device) = device("arrays in parts") else {
+        return;
+    };
+    if device.adapter().arrays == 1 {
+        println!(
+            "skipped: arrays in parts: {} needs none",
+            device.adapter().name
+        );
+        return;
+    }
+    let scene = || build(water::<f64, 2>(Fill::Dam, false));
+    let bits = |device: &Device| -> Result<u64, GpuError> {
+        let mut run = device.load(scene())?;
+        for _ in 0..60 {
+            run.step()?;
+        }
+        assert!(run.list_builds() > 1);
+        Ok(run.simulation()?.bits_hash())
+    };
+    let Err(GpuError::TooLarge { bytes, .. }) = bits(&device.clone().as_lesser(true, 512)) else {
+        panic!("arrays are larger than that");
+    };
+    // The first array of all, in two parts and more.
+    let mut found = 0;
+    for most in (1..16).map(|k| bytes * k / 16) {
+        match bits(&device.clone().as_lesser(true, most)) {
+            Ok(own) => {
+                assert_eq!(own, bits(&device).unwrap(), "{most} of {bytes} bytes");
+                found += 1;
+            }
+            Err(GpuError::TooLarge { .. }) => {}
+            Err(error) => panic!("{error}"),
+        }
+        if found == 2 {
+            println!("up to {most} bytes of {bytes}");
+            return;
+        }
+    }
+    panic!("no array is bound in parts");
 }
