@@ -32,7 +32,7 @@ use crate::term::{Stage, TermDoc};
 /// | [`Plasticity::STRAIN`], [`Plasticity::WORK`] | plastic strain, and its work, in the ledger as `plastic work` |
 /// | elastic energy | of distortion, ½ G (tr b̄ − 3)/ρ₀ \[J/kg\], in the ledger as `distortion` |
 ///
-/// It needs an integrator that kicks: the state of flow changes once a step.
+/// It needs an integrator that drifts: the state of flow changes once a step.
 ///
 /// ```
 /// use meshfree::effect::FiniteStrainPlasticity;

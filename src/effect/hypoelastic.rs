@@ -28,7 +28,7 @@ use crate::term::{In, Layout, Pair, Stage, Sums, Term, TermDoc, VelocityGradient
 /// | limit of the step | 0.1/‖∇v‖: no particle is strained or turned by more than a tenth |
 ///
 /// Internal energy takes the work of S with that of the pressure. Across a contact that may open only what presses
-/// acts. It needs an integrator that kicks. [`Plasticity`](super::Plasticity) limits S by the strength of the material.
+/// acts. It needs an integrator that drifts. [`Plasticity`](super::Plasticity) limits S by the strength of the material.
 ///
 /// ```
 /// use meshfree::effect::Hypoelastic;

@@ -119,7 +119,8 @@ pub trait Integrator: Debug + Send + Sync {
     fn integrates_density(&self) -> bool {
         true
     }
-    /// Whether positions change by drifts alone, as sub-cycling needs.
+    /// Whether positions change by drifts alone, as sub-cycling needs, and what acts in the middle of drifts: shifting, pairing control,
+    /// plastic flow, failure, elastic stress.
     fn drifts(&self) -> bool {
         self.kicks()
     }

@@ -431,7 +431,6 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         let strike = |clock: &mut Clock| clock.strikes(now, moment, is_end);
         let struck: Vec<bool> = clocks.iter_mut().map(strike).collect();
         if struck.contains(&true) {
-            // Also of a clone, which steps by itself.
             self.simulation.end_parts();
         }
         let now = &*self.simulation;

@@ -56,7 +56,8 @@ impl FieldRates {
         (growth, sources)
     }
 
-    /// dY/dt of a field with values `y`.
+    /// dY/dt = g Y + s of a field with values Y, from the sums of growths g and of sources s. A length grows by g/D in D dimensions, and
+    /// of a tensor that turns with the spin W there is W Y − Y W, too.
     pub fn of<const D: usize>(&self, update: Update, y: &[Traced], x: &[Traced]) -> Vec<Traced> {
         let (growth, mut rates) = self.sums(x, y.len());
         // A length spans a volume.
