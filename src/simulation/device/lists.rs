@@ -60,8 +60,8 @@ pub struct Search<const D: usize> {
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
-    /// Whether a device may build the lists of a group: of present neighbours, without walls that are bodies of other groups, and in
-    /// few blocks.
+    /// Whether a device may build the lists of a group: of present neighbours, and in few blocks. It sorts bodies alone: walls that are
+    /// bodies of other groups, which the host sorts too, stay as they are.
     #[must_use]
     pub fn builds_lists(&self, group: usize) -> bool {
         let (own, program) = (
@@ -70,7 +70,6 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         );
         own.outlets.is_empty()
             && !program.moved.is_empty()
-            && program.follows.is_empty()
             && own.neighborhood.blocks.len() <= MOST_BLOCKS
     }
 
