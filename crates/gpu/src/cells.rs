@@ -1,7 +1,10 @@
 //! The texts of kernels that list neighbours: cells of places, order along a curve, and who is within reach of a cluster.
 //! Cells are counted modulo a table, so that one particle far away asks for no more of it.
 
+use crate::compile::transformed;
 use crate::{Dialect, Precision};
+use meshfree::particles::Fields;
+use meshfree::scalar::Record;
 use meshfree::simulation::device::{CellGrid, Layout, Search};
 
 /// What the texts know of a group.
@@ -121,6 +124,21 @@ impl Around<'_> {
         let copies = places.chain(length);
         copies.fold(String::new(), |body, (at, to)| {
             body + &format!("state[{to}u + i] = state[{at}u + i];\n")
+        })
+    }
+
+    /// What lets particles re-enter, by the record of some fields; their places are then those that lists are built for.
+    pub fn re_entry(&self, fields: Fields, record: &Record) -> String {
+        let columns = fields
+            .iter()
+            .flat_map(|field| (0..self.d()).map(move |d| self.layout.field(field, d)));
+        let columns = columns.map(|at| (at, format!("state[{at}u + source]")));
+        let columns: Vec<_> = columns.collect();
+        let body = transformed(&columns, record, (self.d(), self.dialect));
+        // Places are the first of what changes.
+        let places = columns.iter().take(self.d()).enumerate();
+        places.fold(body, |body, (d, (_, place))| {
+            body + &format!("{} = {place};\n", self.listed(d, "source"))
         })
     }
 

@@ -5,7 +5,7 @@ use crate::device::{Device, Kernel};
 use crate::fuse::Around;
 use crate::kernel::Array;
 use crate::pairs::sweep_of_run;
-use crate::{Dialect, Error, Part, Precision, emit};
+use crate::{Dialect, Error, Precision, emit};
 use meshfree::particles::{Fields, Outputs};
 use meshfree::scalar::Record;
 use meshfree::simulation::device::{Action, Layout, PointStep, Program, RepeatStep, SweepStep};
@@ -195,13 +195,8 @@ impl<'a> Compiler<'a> {
         pieces: &mut Vec<Piece>,
     ) -> Result<(), Error> {
         let layout = &self.sizes.layout;
-        let joined = PointStep::joined(steps).map_err(|(name, error)| Error::Recorded {
-            part: Part {
-                kind: "steps",
-                name,
-            },
-            what: error.what,
-        })?;
+        let joined = PointStep::joined(steps);
+        let joined = joined.map_err(|(name, error)| Error::recorded("steps", &name, &error))?;
         for step in joined {
             let around = Around {
                 layout,

@@ -235,10 +235,8 @@ impl Compiled {
                 _ => own.slots.clone(),
             };
             let extent = Extent {
-                count: slots_of.len(),
-                first: slots_of.start,
                 stride: slots,
-                ..Extent::default()
+                ..Extent::of(slots_of)
             };
             device.bind_over(&own.kernel, &buffers, extent)
         };

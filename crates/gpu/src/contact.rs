@@ -212,11 +212,7 @@ impl Contact {
             let rest = partners.rest.iter().copied();
             let rest = device.upload(what, &pack(rest, self.precision))?;
             let [run, live] = &own.slots;
-            let extent = || Extent {
-                count: run.len(),
-                first: run.start,
-                ..Extent::default()
-            };
+            let extent = || Extent::of(run.clone());
             let mut buffers = vec![&m.state, &m.columns];
             if is_between(&self.step) {
                 buffers.extend([&o.state, &o.columns]);

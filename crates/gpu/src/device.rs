@@ -8,6 +8,7 @@ mod vulkan;
 use crate::kernel::{Array, Frame, THREADS};
 use crate::split::MOST_ARRAYS;
 use crate::{Dialect, Error, Language, Part, Precision};
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use vulkan::Vulkan;
@@ -75,18 +76,19 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
+    pub fn of(slots: Range<usize>) -> Self {
+        Self {
+            count: slots.len(),
+            first: slots.start,
+            ..Self::default()
+        }
+    }
+
     /// The words that a kernel is told, with the threads of a row of groups.
     fn words(self, row: u32) -> [u32; 8] {
-        let Self {
-            count,
-            first,
-            length,
-            stride,
-            target,
-        } = self;
-        let [count, first, length, stride, target] =
-            [count, first, length, stride, target].map(|own| own as u32);
-        [count, row, 0, first, length, stride, target, 0]
+        let own = [self.first, self.length, self.stride, self.target];
+        let [first, length, stride, target] = own.map(|own| own as u32);
+        [self.count as u32, row, 0, first, length, stride, target, 0]
     }
 }
 
@@ -376,10 +378,7 @@ impl Device {
         let made = match &self.driver {
             Driver::Vulkan(own) => own.kernel(&frame, body, self.threads).map(Kernel::Vulkan),
             #[cfg(feature = "cuda")]
-            Driver::Cuda(own) => {
-                let source = frame.source(body, self.threads);
-                own.kernel(&source, self.threads).map(Kernel::Cuda)
-            }
+            Driver::Cuda(own) => own.kernel(&frame, body, self.threads).map(Kernel::Cuda),
             Driver::Text(_, all) => {
                 let mut all = all.lock().unwrap_or_else(PoisonError::into_inner);
                 all.push((part.to_string(), frame.source(body, self.threads)));
@@ -397,8 +396,7 @@ impl Device {
     fn fits(&self, what: &'static str, bytes: u64) -> Result<(), Error> {
         // So that a kernel whose arrays all have so many parts can bind them.
         let parts = u64::from(self.adapter.arrays / MOST_ARRAYS);
-        let most = self.part().saturating_mul(parts);
-        let most = most.max(self.adapter.most_bound);
+        let most = (self.part().saturating_mul(parts)).max(self.adapter.most_bound);
         if bytes > most {
             return Err(Error::TooLarge { what, bytes, most });
         }
@@ -442,11 +440,7 @@ impl Device {
 
     /// Binds buffers to a kernel that runs for some particles.
     pub(crate) fn bind(&self, kernel: &Kernel, buffers: &[&Buffer], count: usize) -> Bound {
-        let extent = Extent {
-            count,
-            ..Extent::default()
-        };
-        self.bind_over(kernel, buffers, extent)
+        self.bind_over(kernel, buffers, Extent::of(0..count))
     }
 
     /// The same, for particles from one on.

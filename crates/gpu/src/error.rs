@@ -1,6 +1,8 @@
 //! What can go wrong on a device, each with what to do about it.
 //! What cannot be recorded is `Unrecordable` before anything gets here.
 
+use meshfree::scalar::Unrecordable;
+
 /// A part of a scheme, by its kind and name, as messages give it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
@@ -137,6 +139,15 @@ pub enum Error {
 }
 
 impl Error {
+    /// That a part cannot be recorded.
+    pub(crate) fn recorded(kind: &'static str, name: &str, error: &Unrecordable) -> Self {
+        let name = name.into();
+        Self::Recorded {
+            part: Part { kind, name },
+            what: error.what,
+        }
+    }
+
     /// Refuses a size that is not as it should be.
     pub(crate) fn unless(
         fits: bool,

@@ -73,11 +73,7 @@ impl Link {
             let runs = [&step.slots, &step.body];
             let map = |k: usize| device.room("which particle is which", 4 * runs[k].len());
             let maps = [map(0)?, map(1)?];
-            let extent = |k: usize| Extent {
-                count: runs[k].len(),
-                first: runs[k].start,
-                ..Extent::default()
-            };
+            let extent = |k: usize| Extent::of(runs[k].clone());
             let numbers = Array::numbers;
             let arrays = [
                 numbers("state").written(),

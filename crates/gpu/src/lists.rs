@@ -2,14 +2,14 @@
 //! The host is told how many entries there are and, after a sort, which particle is where.
 
 use crate::cells::{Around, folded, numbers};
-use crate::compile::{Sizes, transformed};
+use crate::compile::Sizes;
 use crate::device::{Bound, Buffer, Extent, Kernel};
 use crate::kernel::{Array, pack_indices};
 use crate::pairs::PairLists;
 use crate::reduce::{Find, Reduction};
 use crate::run::Run;
 use crate::sort::{Scan, Sort, Sorted, digits};
-use crate::{Device, Error, Part, Precision};
+use crate::{Device, Error, Precision};
 use meshfree::scalar::Real;
 use meshfree::simulation::device::{Bounds, Offloaded, Search};
 
@@ -132,33 +132,6 @@ impl Kernels {
     }
 }
 
-/// The text that lets particles re-enter, whose places are then those that lists are built for.
-fn re_entry<T: Real, const D: usize>(
-    host: &Offloaded<T, D>,
-    (group, sizes): (usize, &Sizes),
-    around: &Around<'_>,
-) -> Result<String, Error> {
-    let (fields, record) = host.re_entry(group).map_err(|error| Error::Recorded {
-        part: Part {
-            kind: "lists",
-            name: "re-entry".into(),
-        },
-        what: error.what,
-    })?;
-    let layout = &sizes.layout;
-    let columns = fields
-        .iter()
-        .flat_map(|field| (0..D).map(move |d| layout.field(field, d)));
-    let columns = columns.map(|at| (at, format!("state[{at}u + source]")));
-    let columns: Vec<_> = columns.collect();
-    let mut text = transformed(&columns, &record, (D, around.dialect));
-    // Places are the first of what changes.
-    for (d, (_, place)) in columns.iter().take(D).enumerate() {
-        text += &format!("state[{}u + source] = {place};\n", layout.listed(d));
-    }
-    Ok(text)
-}
-
 impl Builder {
     pub fn new<T: Real, const D: usize>(
         device: &Device,
@@ -177,8 +150,10 @@ impl Builder {
         // At least so many that small scenes have all of their cells.
         let table = (CELLS * slots + 1024) / blocks;
         let shows_images = host.shows_images(group);
-        let re_entry = shows_images.then(|| re_entry(host, (group, sizes), &around));
-        let kernels = Kernels::new(device, &around, re_entry.transpose()?)?;
+        let re_entry = shows_images.then(|| host.re_entry(group)).transpose();
+        let re_entry = re_entry.map_err(|error| Error::recorded("lists", "re-entry", &error))?;
+        let re_entry = re_entry.map(|(fields, record)| around.re_entry(fields, &record));
+        let kernels = Kernels::new(device, &around, re_entry)?;
         let sort = Sort::new(device, around.dialect)?;
         let words = |count: usize| device.room(LISTS, 4 * count);
         let of_slots = host.members(group);
@@ -220,25 +195,19 @@ impl Builder {
         state: &Buffer,
         (slots, count): (usize, usize),
     ) -> (Vec<Bound>, Buffer) {
-        let (rooms, kernels, cells) = (&self.rooms, &self.kernels, self.table * self.blocks);
-        let [first, second] = &rooms.orders;
-        let buffers = [
-            &rooms.places,
-            &rooms.members,
-            &self.grid,
-            &rooms.keys,
-            first,
-        ];
+        let (r, kernels, cells) = (&self.rooms, &self.kernels, self.table * self.blocks);
+        let [first, second] = &r.orders;
+        let buffers = [&r.places, &r.members, &self.grid, &r.keys, first];
         let mut all = vec![
-            device.bind(&kernels.places, &[state, &rooms.places], slots),
+            device.bind(&kernels.places, &[state, &r.places], slots),
             device.bind(&kernels.keys, &buffers, count),
         ];
         let bits = usize::BITS - cells.leading_zeros();
         let passes: Vec<_> = (0..digits(bits as usize)).map(|k| (0, k)).collect();
         let of_sort = Sorted {
-            keys: &rooms.keys,
+            keys: &r.keys,
             orders: [first, second],
-            counts: &rooms.counts,
+            counts: &r.counts,
             slots,
             count,
         };
@@ -249,12 +218,12 @@ impl Builder {
             length: count,
             ..Extent::default()
         };
-        let sorted = &rooms.orders[sorted];
-        all.push(device.bind_over(&kernels.starts, &[&rooms.keys, sorted, &self.cells], extent));
-        let near = [&rooms.places, &rooms.members, sorted, &self.cells];
-        let buffers = [&near[..], &[&self.grid, &rooms.counts]].concat();
+        let sorted = &r.orders[sorted];
+        all.push(device.bind_over(&kernels.starts, &[&r.keys, sorted, &self.cells], extent));
+        let near = [&r.places, &r.members, sorted, &self.cells];
+        let buffers = [&near[..], &[&self.grid, &r.counts]].concat();
         all.push(device.bind(&kernels.count, &buffers, self.pairs));
-        all.extend(self.sort.scan.bind(device, &rooms.counts, self.pairs + 1));
+        all.extend(self.sort.scan.bind(device, &r.counts, self.pairs + 1));
         (all, sorted.clone())
     }
 }
@@ -288,13 +257,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             Vec::new()
         };
         if let Some(places) = places {
-            let of = |n: usize| {
-                order
-                    .get(n % slots)
-                    .map_or(n, |own| n - n % slots + *own as usize)
-            };
-            let places: Vec<_> = (0..places.len()).map(|n| places[of(n)]).collect();
-            self.host.show_images(group, &places, &bounds);
+            self.host.show_images(group, (&places, &order), &bounds);
         }
         self.list(group, bounds, sorts)?;
         Ok(true)
@@ -431,10 +394,9 @@ impl<T: Real, const D: usize> Run<T, D> {
 
     fn sorted(&self, group: usize, search: &Search<D>) -> Result<Vec<u32>, Error> {
         let (own, device) = (&self.groups[group], &self.device);
-        let Some(builder) = &own.builder else {
-            return Ok(Vec::new());
-        };
-        let Some(curve) = &builder.kernels.curve else {
+        let builder = own.builder.as_ref();
+        let of = builder.and_then(|own| Some((own, own.kernels.curve.as_ref()?)));
+        let Some((builder, curve)) = of else {
             return Ok(Vec::new());
         };
         self.look_in(builder, search);

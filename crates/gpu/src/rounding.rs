@@ -1,7 +1,7 @@
 //! Whether a driver keeps what the rounding of a sum loses, as places in `f32` need it.
 //! It is tried, since a driver may reassociate.
 
-use crate::{Device, Error, Part, PointKernel, Precision};
+use crate::{Device, Error, PointKernel, Precision};
 use meshfree::scalar::Record;
 
 /// Refuses a driver that does not keep what the rounding of a sum loses (Knuth's two-sum), as places in `f32` need it.
@@ -12,13 +12,7 @@ pub(crate) fn keeps_rounding(device: &Device) -> Result<(), Error> {
         let part = sum - a;
         vec![sum, (a - (sum - part)) + (b - part)]
     });
-    let record = record.map_err(|error| Error::Recorded {
-        part: Part {
-            kind: "record",
-            name: "two-sum".into(),
-        },
-        what: error.what,
-    })?;
+    let record = record.map_err(|error| Error::recorded("record", "two-sum", &error))?;
     let kernel = PointKernel::new(device, "two-sum", &record, Precision::Single)?;
     let numbers: [f32; 6] = [1.0, 0.3, 1e6, -7.0, 3e-5, 1.0 / 3.0];
     let pairs = numbers.map(|a| numbers.map(|b| (a, b * 1e-4)));

@@ -138,17 +138,24 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Finds the images of a group for places \[m\], axis after axis, and smoothing lengths \[m\] where they vary, of which the largest bounds
-    /// have.
-    pub fn show_images(&mut self, number: usize, columns: &[f64], bounds: &Bounds<D>) {
+    /// have. Slot k is now what slot `order[k]` was there, if there is an order.
+    pub fn show_images(
+        &mut self,
+        number: usize,
+        (columns, order): (&[f64], &[u32]),
+        bounds: &Bounds<D>,
+    ) {
         let (layout, group) = (
             &self.recorded[number].layout,
             &mut self.simulation.state.groups[number],
         );
         let (slots, near) = (layout.slots, &mut group.neighborhood);
-        let place = |slot: usize| core::array::from_fn(|d| T::from_f64(columns[d * slots + slot]));
+        let before = |slot: usize| order.get(slot).map_or(slot, |own| *own as usize);
+        let of = |d: usize, slot: usize| T::from_f64(columns[d * slots + before(slot)]);
+        let place = |slot: usize| core::array::from_fn(|d| of(d, slot));
         near.listed = Arc::new((0..slots).map(place).collect());
-        let lengths = columns[D * slots..].iter();
-        near.listed_h = lengths.map(|h| T::from_f64(*h)).collect();
+        let lengths = 0..columns.len() - D * slots;
+        near.listed_h = lengths.map(|slot| of(D, slot)).collect();
         let largest = bounds.lengths.map_or(0.0, |own| own[1]);
         let reach = near.support * largest.max(near.smoothing_length) + near.skin;
         let at = (near.listed_time, reach);

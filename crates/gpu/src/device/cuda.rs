@@ -2,6 +2,7 @@
 //! It was run against a stand-in for the driver, with kernels compiled for the host, and on no card, since none could be reached.
 
 use super::{Adapter, Extent};
+use crate::kernel::Frame;
 use crate::{Error, nvrtc};
 use core::ffi::c_void;
 use cudarc::driver::{CudaContext, CudaFunction, DriverError, result, sys};
@@ -128,8 +129,9 @@ impl Cuda {
         })
     }
 
-    pub fn kernel(&self, source: &str, threads: u32) -> Result<Kernel, String> {
-        let code = Ptx::from_binary(nvrtc::code(source, &self.architecture)?);
+    pub fn kernel(&self, frame: &Frame<'_>, body: &str, threads: u32) -> Result<Kernel, String> {
+        let source = frame.source(body, threads);
+        let code = Ptx::from_binary(nvrtc::code(&source, &self.architecture)?);
         let module = self.context.load_module(code).map_err(said)?;
         let function = module.load_function("kernel").map_err(said)?;
         Ok(Kernel {

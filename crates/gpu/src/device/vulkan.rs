@@ -56,33 +56,22 @@ pub struct Vulkan {
     failed: Arc<Mutex<Option<String>>>,
 }
 
-/// A compiled kernel.
+/// A kernel, by its text, and what was compiled of it: for arrays of so many parts of some bytes each.
 #[derive(Debug)]
 pub struct Kernel {
     opened: Arc<()>,
-    made: Made,
-    threads: u32,
-    /// Its text, and what was compiled of it for arrays in parts.
     dialect: Dialect,
     buffers: Vec<Array>,
     body: String,
-    in_parts: Mutex<Vec<(Vec<u64>, Made)>>,
+    threads: u32,
+    made: Mutex<Vec<(Vec<u64>, Made)>>,
 }
 
-/// What a text was compiled to.
-#[derive(Clone, Debug)]
-struct Made {
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
-}
+type Made = (wgpu::ComputePipeline, wgpu::BindGroupLayout);
 
-/// A kernel with what it works on.
+/// A kernel with what it works on and how many groups; none that could not be compiled.
 #[derive(Debug)]
-pub struct Bound {
-    pipeline: wgpu::ComputePipeline,
-    group: wgpu::BindGroup,
-    groups: [u32; 2],
-}
+pub struct Bound(Option<(wgpu::ComputePipeline, wgpu::BindGroup, [u32; 2])>);
 
 impl Vulkan {
     pub fn open(adapter: &wgpu::Adapter) -> Result<Self, String> {
@@ -113,27 +102,22 @@ impl Vulkan {
 
     /// Compiles a kernel, unless the driver refuses it.
     pub fn kernel(&self, frame: &Frame<'_>, body: &str, threads: u32) -> Result<Kernel, String> {
-        let source = frame.source(body, threads);
-        let writable = frame.buffers.iter().map(|own| own.writable);
-        Ok(Kernel {
+        let own = Kernel {
             opened: self.opened.clone(),
-            made: self.compile(&source, &writable.collect::<Vec<_>>())?,
-            threads,
             dialect: frame.dialect,
             buffers: frame.buffers.to_vec(),
             body: body.into(),
-            in_parts: Mutex::default(),
-        })
+            threads,
+            made: Mutex::default(),
+        };
+        self.made(&own, &vec![1; frame.buffers.len()], 0)?;
+        Ok(own)
     }
 
-    /// A kernel for arrays of so many parts of some bytes each.
-    fn in_parts(&self, kernel: &Kernel, parts: &[u64], bytes: u64) -> Result<Made, String> {
-        let mut all = kernel
-            .in_parts
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        let key = [parts, &[bytes]].concat();
-        if let Some((_, made)) = all.iter().find(|own| own.0 == key) {
+    /// What a kernel is compiled to for arrays of so many parts of some bytes each.
+    fn made(&self, kernel: &Kernel, parts: &[u64], bytes: u64) -> Result<Made, String> {
+        let mut all = kernel.made.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, made)) = all.iter().find(|own| own.0 == parts) {
             return Ok(made.clone());
         }
         let frame = Frame {
@@ -145,7 +129,7 @@ impl Vulkan {
         let each = kernel.buffers.iter().zip(parts);
         let writable = each.flat_map(|(own, parts)| (0..*parts).map(|_| own.writable));
         let made = self.compile(&source, &writable.collect::<Vec<_>>())?;
-        all.push((key, made.clone()));
+        all.push((parts.to_vec(), made.clone()));
         Ok(made)
     }
 
@@ -199,7 +183,7 @@ impl Vulkan {
                 cache: None,
             });
         match block_on(scope.pop()) {
-            None => Ok(Made { pipeline, layout }),
+            None => Ok((pipeline, layout)),
             Some(error) => Err(error.to_string()),
         }
     }
@@ -243,30 +227,25 @@ impl Vulkan {
             size if size > most => size.div_ceil(bytes),
             _ => 1,
         };
-        let mut parts: Vec<_> = buffers.iter().map(parts).collect();
-        let mut made = kernel.made.clone();
-        if parts.iter().any(|own| *own > 1) {
-            match self.in_parts(kernel, &parts, bytes) {
-                Ok(own) => made = own,
-                Err(message) => {
-                    // What is read next says so.
-                    self.failed().get_or_insert(message);
-                    parts.fill(1);
-                }
+        let parts: Vec<_> = buffers.iter().map(parts).collect();
+        let (pipeline, layout) = match self.made(kernel, &parts, bytes) {
+            Ok(made) => made,
+            Err(message) => {
+                // What is read next says so.
+                self.failed().get_or_insert(message);
+                return Bound(None);
             }
-        }
-        let part = |buffer, size: u64, k: u64| wgpu::BufferBinding {
-            buffer,
-            offset: k * bytes,
-            size: NonZeroU64::new(bytes.min(size - k * bytes)),
         };
         let mut all = vec![scene.as_entire_binding()];
-        for (buffer, parts) in buffers.iter().copied().zip(parts) {
-            let size = buffer.size();
-            match parts {
-                1 if size <= most => all.push(buffer.as_entire_binding()),
-                _ => all.extend((0..parts).map(|k| BindingResource::Buffer(part(buffer, size, k)))),
-            }
+        for (buffer, parts) in buffers.iter().zip(parts) {
+            all.extend((0..parts).map(|k| {
+                BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer,
+                    offset: k * bytes,
+                    // The last has what is left.
+                    size: NonZeroU64::new(bytes).filter(|_| k + 1 < parts),
+                })
+            }));
         }
         let entries = all.into_iter().enumerate();
         let entries: Vec<_> = entries
@@ -277,14 +256,11 @@ impl Vulkan {
             .collect();
         let group = self.inner.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
-            layout: &made.layout,
+            layout: &layout,
             entries: &entries,
         });
-        Bound {
-            pipeline: made.pipeline,
-            group,
-            groups: [across, groups.div_ceil(across)],
-        }
+        let groups = [across, groups.div_ceil(across)];
+        Bound(Some((pipeline, group, groups)))
     }
 
     fn failed(&self) -> MutexGuard<'_, Option<String>> {
@@ -295,11 +271,11 @@ impl Vulkan {
         let mut encoder = self
             .inner
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for own in kernels {
+        for (pipeline, group, [across, down]) in kernels.filter_map(|own| own.0.as_ref()) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&own.pipeline);
-            pass.set_bind_group(0, &own.group, &[]);
-            pass.dispatch_workgroups(own.groups[0], own.groups[1], 1);
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, group, &[]);
+            pass.dispatch_workgroups(*across, *down, 1);
         }
         self.queue.submit([encoder.finish()]);
     }
