@@ -117,7 +117,10 @@ impl Vulkan {
     /// What a kernel is compiled to for arrays of so many parts of some bytes each.
     fn made(&self, kernel: &Kernel, parts: &[u64], bytes: u64) -> Result<Made, String> {
         let mut all = kernel.made.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, made)) = all.iter().find(|own| own.0 == parts) {
+        // Devices that bind less than each other share kernels, also those for whole arrays.
+        let is_whole = parts.iter().all(|own| *own == 1);
+        let key = [parts, &[if is_whole { 0 } else { bytes }]].concat();
+        if let Some((_, made)) = all.iter().find(|own| own.0 == key) {
             return Ok(made.clone());
         }
         let frame = Frame {
@@ -129,7 +132,7 @@ impl Vulkan {
         let each = kernel.buffers.iter().zip(parts);
         let writable = each.flat_map(|(own, parts)| (0..*parts).map(|_| own.writable));
         let made = self.compile(&source, &writable.collect::<Vec<_>>())?;
-        all.push((parts.to_vec(), made.clone()));
+        all.push((key, made.clone()));
         Ok(made)
     }
 

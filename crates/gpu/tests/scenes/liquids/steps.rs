@@ -6,7 +6,8 @@ use crate::common::{device, in_any_groups};
 use crate::compare::{build, differences, load, on_device, resumed};
 use crate::neighbours;
 use meshfree::prelude::*;
-use meshfree_gpu::{Device, Error as GpuError};
+use meshfree::scalar::Record;
+use meshfree_gpu::{Device, Error as GpuError, PointKernel, Precision};
 
 #[test]
 fn bits_are_the_same_twice_and_in_any_work_groups() {
@@ -207,6 +208,26 @@ fn a_state_that_breaks_is_named_as_on_the_host() {
         println!("{host}\n{found}");
         let kind = |text: String| text.split(' ').next().map(String::from);
         assert_eq!(kind(found.to_string()), kind(host.to_string()));
+    }
+}
+
+/// What is compiled for parts of one size does not serve those of another.
+#[test]
+fn a_kernel_serves_parts_of_every_size() {
+    let Some(device) = device("parts of every size") else {
+        return;
+    };
+    let record = Record::of(1, |x| vec![x[0] + x[0]]).expect("lanes");
+    let kernel = PointKernel::new(&device, "twice", &record, Precision::Double);
+    let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
+    let column: Vec<f64> = (0..175).map(f64::from).collect();
+    let twice: Vec<f64> = column.iter().map(|x| 2.0 * x).collect();
+    // 1408 bytes in two parts of 768 or of 1024, and whole.
+    for most in [768, 1024, 768, 1408] {
+        let lesser = device.clone().as_lesser(true, most);
+        let found = kernel.run(&lesser, &[&column]);
+        let found = found.unwrap_or_else(|error| panic!("{most} bytes: {error}"));
+        assert_eq!(found, std::slice::from_ref(&twice), "{most} bytes");
     }
 }
 
