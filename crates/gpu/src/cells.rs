@@ -226,7 +226,8 @@ impl Around<'_> {
         format!("{own}if (own >= {blocks}u) {{ order[i] = order[own - {blocks}u]; }}\n")
     }
 
-    /// The neighbours of a cluster in a block: how many, or themselves from a place in the list on.
+    /// The neighbours of a cluster in a block: how many, or themselves from a place in the list on. They are looked for around the box of
+    /// the cluster, or where its members are far apart around each: what others before it have found is left out then.
     pub fn neighbours(&self, fills: bool) -> String {
         let (dialect, blocks, width) = (self.dialect, self.blocks, self.cluster);
         let (axes, reach) = (0..self.d(), self.reaches());
@@ -257,6 +258,7 @@ impl Around<'_> {
                 body += &format!("widest = {};\n", larger("widest".into(), format!("h{m}")));
             }
         }
+        let mut wide = String::from("false");
         for d in axes.clone() {
             let (low, high) = (format!("low{d}"), format!("high{d}"));
             body += &dialect.variable(&low, &format!("m0_{d}"));
@@ -266,11 +268,21 @@ impl Around<'_> {
                 body += &format!("{low} = {};\n", smaller(low.clone(), own.clone()));
                 body += &format!("{high} = {};\n", larger(high.clone(), own));
             }
-            let begin = larger(format!("({low} - {})", self.grid(reach)), self.grid(d));
+            wide += &format!(" || {high} - {low} - {r} > {r}", r = self.grid(reach));
+            body += &self.count(&format!("table{d}"), self.tables() + d);
+        }
+        let boxes = dialect.select(&format!("({wide})"), &format!("{width}u"), "1u");
+        body += &(dialect.index("boxes", &boxes) + &dialect.each("member", "0u", "boxes"));
+        for d in axes.clone() {
+            for end in ["low", "high"] {
+                let own = self.place(d, "first + member");
+                let own = dialect.select("boxes > 1u", &own, &format!("{end}{d}"));
+                body += &number(&format!("{end}est{d}"), &own);
+            }
+            let begin = larger(format!("(lowest{d} - {})", self.grid(reach)), self.grid(d));
             let begin = self.cell(0, d, &begin);
             body += &dialect.index(&format!("begin{d}"), &begin);
-            let last = self.cell(0, d, &format!("({high} + {})", self.grid(reach)));
-            body += &self.count(&format!("table{d}"), self.tables() + d);
+            let last = self.cell(0, d, &format!("(highest{d} + {})", self.grid(reach)));
             let span = format!("min({last} - begin{d} + 1u, table{d})");
             body += &dialect.index(&format!("span{d}"), &span);
         }
@@ -293,17 +305,12 @@ impl Around<'_> {
         for d in axes.clone() {
             body += &number(&format!("y{d}"), &self.place(d, "j"));
         }
-        for m in members {
+        for m in members.clone() {
             let squares = axes
                 .clone()
                 .map(|d| format!("(y{d} - m{m}_{d}) * (y{d} - m{m}_{d})"));
             let square = squares.collect::<Vec<_>>().join(" + ");
-            if m == 0 {
-                body += &dialect.variable("least", &square);
-            } else {
-                body += &number(&format!("r{m}"), &square);
-                body += &format!("least = {};\n", smaller(format!("r{m}"), "least".into()));
-            }
+            body += &number(&format!("r{m}"), &square);
         }
         let mut within = self.grid(reach + 1);
         if varies {
@@ -313,13 +320,17 @@ impl Around<'_> {
             let raised = dialect.constant(1.0 + rounding(dialect.precision));
             within = format!("far * far * {raised}");
         }
-        body += &format!("if (least <= {within}) {{\n");
+        // The first member that is near.
+        body += &dialect.counter("near", &format!("{width}u"));
+        for m in members.rev() {
+            body += &format!("if (r{m} <= {within}) {{ near = {m}u; }}\n");
+        }
+        body += &format!("if (near < {width}u && (boxes == 1u || near == member)) {{\n");
         if fills {
             body += "list[found] = j;\n";
         }
         body += "found = found + 1u;\n}\n";
-        body += &"}\n".repeat(1 + self.d());
-        body += "}\n}\n";
+        body += &"}\n".repeat(4 + self.d());
         if fills {
             body + "segments[n * 3u] = counts[n];\nsegments[n * 3u + 1u] = found;\n"
         } else {

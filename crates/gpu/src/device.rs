@@ -394,8 +394,8 @@ impl Device {
     }
 
     fn fits(&self, what: &'static str, bytes: u64) -> Result<(), Error> {
-        // So that a kernel whose arrays all have two parts can bind them; with three a scene of 1.6 million particles went wrong.
-        let parts = u64::from(self.adapter.arrays / MOST_ARRAYS).min(2);
+        // So that a kernel whose arrays all have so many parts can bind them.
+        let parts = u64::from(self.adapter.arrays / MOST_ARRAYS);
         let most = (self.part().saturating_mul(parts)).max(self.adapter.most_bound);
         if bytes > most {
             return Err(Error::TooLarge { what, bytes, most });

@@ -4,8 +4,9 @@
 use super::{Fill, water};
 use crate::common::{device, in_any_groups};
 use crate::compare::{build, load, on, on_host};
-use crate::neighbours::{are_those_of_the_host, on_host as offloaded};
+use crate::neighbours::{are_in_lists_of_the_host, are_those_of_the_host, on_host as offloaded};
 use meshfree::material::eos::IdealGas;
+use meshfree::particles::Field;
 use meshfree::prelude::*;
 use meshfree::scheme::Start;
 use meshfree::simulation::ParticleView;
@@ -131,6 +132,33 @@ fn neighbours_of_what_is_far_away_are_found() {
         let host = host.offload().unwrap();
         assert_eq!(offloaded(&mut run).ids(0), host.ids(0));
     }
+}
+
+/// Clusters of which the curve has some particles on one side of many others, and some on the other: there is no end to a box around
+/// these, and drivers in software leave a loop after 65 535 rounds.
+#[test]
+fn neighbours_of_clusters_in_pieces_are_found() {
+    let Some(device) = device("clusters in pieces") else {
+        return;
+    };
+    // A square in one quarter of the curve, of which the last particle shares a cluster with three in each of two others.
+    let (count, spacing) = (299, 0.01);
+    let at = |k: usize| [k % count, k / count].map(|k| k as f64 * spacing);
+    let apart = (0..3).map(|k| 6.5 + spacing * f64::from(k));
+    let apart = apart.flat_map(|x| [[x, 0.0], [0.0, x]]);
+    let points = (0..count * count).map(at).chain(apart).collect();
+    let water = catalogue::weakly_compressible_water::<f64>(2.5);
+    let body = Body::points_of("water", water, points, spacing);
+    let scene = Scene::<f64, 2>::new(schemes::weakly_compressible()).body(body);
+    let mut run = load(&device, scene);
+    let host = offloaded(&mut run);
+    let places = host.columns(0).vectors(Field::POSITION);
+    let apart = places.chunks(host.cluster()).filter(|own| {
+        let far = |x: &[f64; 2]| (x[0] - own[0][0]).hypot(x[1] - own[0][1]);
+        own.iter().map(far).fold(0.0, f64::max) > 1.0
+    });
+    assert!(apart.count() > 0);
+    println!("{:?}", are_in_lists_of_the_host(&mut run));
 }
 
 #[test]

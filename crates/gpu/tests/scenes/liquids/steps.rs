@@ -222,8 +222,8 @@ fn a_kernel_serves_parts_of_every_size() {
     let kernel = kernel.unwrap_or_else(|error| panic!("{error}"));
     let column: Vec<f64> = (0..175).map(f64::from).collect();
     let twice: Vec<f64> = column.iter().map(|x| 2.0 * x).collect();
-    // 1408 bytes in two parts of 768 or of 1024, and whole.
-    for most in [768, 1024, 768, 1408] {
+    // 1408 bytes in two parts of 768 or of 1024, in three of 512, and whole.
+    for most in [768, 1024, 512, 1024, 1408] {
         let lesser = device.clone().as_lesser(true, most);
         let found = kernel.run(&lesser, &[&column]);
         let found = found.unwrap_or_else(|error| panic!("{most} bytes: {error}"));
