@@ -19,6 +19,9 @@ const CELLS: usize = 4;
 const WORD: usize = 4;
 const BLOCK: usize = 2;
 
+/// Most particles that a thread may look at on a driver in software, which leaves it in silence after 65 535 rounds of loops.
+const MOST_SEEN: f64 = 4e4;
+
 const LISTS: &str = "the lists of neighbours";
 
 /// Kernels that build the lists of a group, and their memory.
@@ -246,7 +249,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             places = Some(own);
         }
         let bounds = self.bounds(group, builder)?;
-        if !self.host.can_list(&bounds) {
+        if !self.can_list(group, &bounds) {
             return Ok(false);
         }
         let sorts = self.host.begin_lists(group, time);
@@ -294,7 +297,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             return Ok(false);
         };
         let bounds = self.bounds(group, builder)?;
-        if !self.host.can_list(&bounds) {
+        if !self.can_list(group, &bounds) {
             return Ok(false);
         }
         self.list(group, bounds, false)?;
@@ -317,6 +320,13 @@ impl<T: Real, const D: usize> Run<T, D> {
         let range = [low, high].map(|own| core::array::from_fn(|d| own[d]));
         let lengths = (low.len() > D).then(|| [low[D], high[D]]);
         Ok(Bounds { range, lengths })
+    }
+
+    /// Whether a thread can list what is near within some bounds.
+    fn can_list(&self, group: usize, bounds: &Bounds<D>) -> bool {
+        let is_software = self.device.adapter().kind == "Cpu";
+        let seen = self.host.looks_at(group, bounds);
+        self.host.can_list(bounds) && (!is_software || seen <= MOST_SEEN)
     }
 
     /// Tells the device where neighbours are looked for.

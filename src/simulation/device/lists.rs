@@ -5,6 +5,7 @@ use super::Offloaded;
 use crate::neighbors::Grid;
 use crate::scalar::Real;
 use crate::sweep::Interaction;
+use crate::simulation::Group;
 
 /// Most blocks of a group whose lists a device builds: it looks for neighbours in each by itself.
 const MOST_BLOCKS: usize = 32;
@@ -60,6 +61,12 @@ pub struct Search<const D: usize> {
 }
 
 impl<T: Real, const D: usize> Offloaded<T, D> {
+/// The least spacing of bodies \[m\].
+fn finest<T: Real, const D: usize>(group: &Group<T, D>) -> f64 {
+    let spacings = group.particles.bodies.iter().map(|own| own.spacing);
+    spacings.fold(f64::INFINITY, f64::min)
+}
+
     /// Whether a device may build the lists of a group: of present neighbours, and in few blocks. It sorts bodies alone: walls that are
     /// bodies of other groups, which the host sorts too, stay as they are.
     #[must_use]
@@ -117,6 +124,20 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// How neighbours are found within some bounds.
+    /// How many particles a thread of the device looks at where they are closest within some bounds: those in the cells around each of a
+    /// cluster.
+    #[must_use]
+    pub fn looks_at(&self, group: usize, bounds: &Bounds<D>) -> f64 {
+        let group = &self.simulation.state.groups[group];
+        let near = &group.neighborhood;
+        let [spacing, most] = match bounds.lengths {
+            Some([least, most]) => [least / group.scheme.h_over_dx(), most],
+            None => [finest(group), near.smoothing_length],
+        };
+        let around = 2.5 * (near.support * most + near.skin) / spacing;
+        self.cluster() as f64 * around.powi(D as i32)
+    }
+
     #[must_use]
     pub fn search(&self, group: usize, bounds: &Bounds<D>) -> Search<D> {
         let group = &self.simulation.state.groups[group];
@@ -125,8 +146,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             .lengths
             .map_or(near.smoothing_length, |[_, most]| most);
         let reach = near.support * largest + near.skin;
-        let spacings = group.particles.bodies.iter().map(|own| own.spacing);
-        let spacing = spacings.fold(f64::INFINITY, f64::min);
+        let spacing = finest(group);
         let edge = if D == 1 { reach } else { 0.5 * reach };
         Search {
             cells: CellGrid::of(&Grid::over(&bounds.range, edge)),
