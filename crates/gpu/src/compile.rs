@@ -275,11 +275,8 @@ impl<'a> Compiler<'a> {
         let changes = repeat.changes * slots;
         let mut body = dialect.index("first", &format!("i - (i - {}u) % {piece}u", run.start));
         body += &dialect.variable("open", &dialect.constant(0.0));
-        body += &dialect.each(
-            "k",
-            "first",
-            &format!("min(first + {piece}u, {}u)", run.end),
-        );
+        let end = format!("min(first + {piece}u, {}u)", run.end);
+        body += &dialect.each("k", "first", &end);
         let tolerance = dialect.constant(repeat.tolerance);
         let one = dialect.constant(1.0);
         body += &format!("if (columns[{changes}u + k] >= {tolerance}) {{ open = {one}; }}\n}}\n");

@@ -48,14 +48,10 @@ pub struct Compiled {
     pub repeats: Vec<Repeat>,
     /// Whether any particle has not settled.
     pub open: Reduction,
-    pub of_open: Vec<Bound>,
     pub vote: Reduction,
     pub moved: Reduction,
     pub approach: Reduction,
     pub forces: Reduction,
-    pub of_vote: Vec<Bound>,
-    pub of_moved: Vec<Bound>,
-    pub of_approach: Vec<Bound>,
     /// Numbers of a record, and of a sum.
     pub widths: [usize; 2],
     /// What records that are kept have.
@@ -110,19 +106,20 @@ impl Compiled {
             least.chain((first..first + d).map(Find::Most))
         };
         let find = |finds: Vec<Find>| Reduction::new(device, &finds, precision);
-        let votes = [Find::LeastAt(0, 1), Find::Most(2), Find::Least(3 + d)];
+        let votes = [
+            Find::LeastAt(0, 1),
+            Find::Most(2),
+            Find::Least(3 + d),
+            Find::Most(4 + d),
+        ];
         let moves = [Find::Most(0), Find::Most(1 + d)];
         Ok(Self {
             vote: find(votes.into_iter().chain(ranges(3)).collect())?,
             moved: find(moves.into_iter().chain(ranges(1)).collect())?,
             open: find(vec![Find::Most(Program::common(d) + 1)])?,
-            of_open: Vec::new(),
             repeats: own.repeats,
             approach: find(vec![Find::LeastAt(0, 0), Find::LeastAt(1, 1)])?,
             forces: find((0..sizes.blocks * d).map(Find::Sum).collect())?,
-            of_vote: Vec::new(),
-            of_moved: Vec::new(),
-            of_approach: Vec::new(),
             bound: Vec::new(),
             kernels: own.kernels,
             lists,
@@ -218,11 +215,7 @@ impl Compiled {
                     of_approach,
                     reacts,
                 } => {
-                    let settings = if of_approach {
-                        &m.approach
-                    } else {
-                        &m.settings
-                    };
+                    let settings = [&m.settings, &m.approach][usize::from(of_approach)];
                     let records = records(of_kept);
                     let mut all = vec![records, settings, &m.clusters, &m.segments, &m.list];
                     all.push(if of_rates { &m.rates } else { &m.sums });
@@ -246,15 +239,15 @@ impl Compiled {
         let over = |own: &Reduction, count, answers| {
             own.bind(device, columns, (0, count), between, (answers, 0))
         };
-        self.of_vote = over(&self.vote, slots, &m.votes);
-        self.of_moved = over(&self.moved, slots, &m.moves);
+        self.vote.bound = over(&self.vote, slots, &m.votes);
+        self.moved.bound = over(&self.moved, slots, &m.moves);
         if !self.repeats.is_empty() {
-            self.of_open = over(&self.open, sizes.layout.mobile, &m.moves);
+            self.open.bound = over(&self.open, sizes.layout.mobile, &m.moves);
         }
-        self.of_approach = over(&self.approach, sizes.layout.mobile, &m.meetings);
+        self.approach.bound = over(&self.approach, sizes.layout.mobile, &m.meetings);
         for (k, (_, body)) in program.feels.iter().enumerate() {
             let target = self.vote.outputs + k * self.forces.outputs;
-            self.of_vote.extend(self.forces.bind(
+            self.vote.bound.extend(self.forces.bind(
                 device,
                 (&m.reactions, slots),
                 (body.start, body.len()),

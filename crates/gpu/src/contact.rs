@@ -200,8 +200,7 @@ impl Contact {
         groups: &[Group],
         all: &[Partners],
     ) -> Result<(), Error> {
-        let (mut gathers, mut owns, mut acts, mut finds) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let [mut gathers, mut owns, mut acts, mut finds] = [const { Vec::new() }; 4];
         for (side, (kernels, partners)) in self.sides.iter().zip(all).enumerate() {
             let own = &self.step.sides[side];
             let other = &self.step.sides[all.len() - 1 - side];
@@ -231,12 +230,7 @@ impl Contact {
                 (&self.found, side * self.width()),
             ));
         }
-        self.bound = gathers
-            .into_iter()
-            .chain(owns)
-            .chain(acts)
-            .chain(finds)
-            .collect();
+        self.bound = [gathers, owns, acts, finds].into_iter().flatten().collect();
         Ok(())
     }
 }

@@ -461,12 +461,12 @@ impl Device {
     }
 
     /// Runs kernels one after another: each sees what those before it have written.
-    pub(crate) fn launch(&self, kernels: &[&Bound]) {
-        self.count(0, kernels.len() as u64);
+    pub(crate) fn launch<'a>(&self, kernels: impl IntoIterator<Item = &'a Bound>) {
+        let kernels = kernels.into_iter().inspect(|_| self.count(0, 1));
         match &self.driver {
-            Driver::Vulkan(own) => own.launch(kernels.iter().map(|own| own.vulkan())),
+            Driver::Vulkan(own) => own.launch(kernels.map(Bound::vulkan)),
             #[cfg(feature = "cuda")]
-            Driver::Cuda(own) => own.launch(kernels.iter().map(|own| own.cuda())),
+            Driver::Cuda(own) => own.launch(kernels.map(Bound::cuda)),
             Driver::Text(..) => {}
         }
     }

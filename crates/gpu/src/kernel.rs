@@ -223,3 +223,9 @@ pub fn unpack(bytes: &[u8], precision: Precision) -> Vec<f64> {
 pub fn pack_indices(all: &[u32]) -> Vec<u8> {
     all.iter().flat_map(|own| own.to_ne_bytes()).collect()
 }
+
+/// What [`pack_indices`] has packed.
+pub fn unpack_indices(bytes: &[u8]) -> Vec<u32> {
+    let all = bytes.as_chunks::<4>().0.iter();
+    all.map(|own| u32::from_ne_bytes(*own)).collect()
+}

@@ -4,7 +4,7 @@
 use crate::cells::{Around, folded, numbers};
 use crate::compile::Sizes;
 use crate::device::{Bound, Buffer, Extent, Kernel};
-use crate::kernel::{Array, pack_indices};
+use crate::kernel::{Array, pack_indices, unpack_indices};
 use crate::pairs::PairLists;
 use crate::reduce::{Find, Reduction};
 use crate::run::Run;
@@ -240,7 +240,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         };
         let (state, slots) = (&own.memory.state, own.sizes.layout.slots);
         let remember = self.device.bind(&builder.kernels.remember, &[state], slots);
-        self.device.launch(&[&remember]);
+        self.device.launch([&remember]);
         let mut places = None;
         if self.host.shows_images(group) {
             let Some(own) = self.re_enter(group, builder, time)? else {
@@ -286,7 +286,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             let transforms = device.upload(LISTS, &transforms)?;
             let buffers = [state, &entries, &transforms];
             let count = found.entries.len() / 2;
-            device.launch(&[&device.bind(kernel, &buffers, count)]);
+            device.launch([&device.bind(kernel, &buffers, count)]);
         }
         Ok(Some(places))
     }
@@ -314,7 +314,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         let (state, answers) = ((&m.state, slots), (&m.moves, 0));
         let own = &builder.bounds;
         let all = own.bind(&self.device, state, (0, slots), between, answers);
-        self.device.launch(&all.iter().collect::<Vec<_>>());
+        self.device.launch(&all);
         let found = self.read(&m.moves, own.outputs)?;
         let (low, high) = found.split_at(own.outputs / 2);
         let range = [low, high].map(|own| core::array::from_fn(|d| own[d]));
@@ -367,11 +367,10 @@ impl<T: Real, const D: usize> Run<T, D> {
             device.write_at(&rooms.places, slots * width, &places);
         }
         let (counted, sorted) = builder.counted(device, &own.memory.state, (slots, count));
-        device.launch(&counted.iter().collect::<Vec<_>>());
+        device.launch(&counted);
         let rooms = &builder.rooms;
         let entries = device.download(&rooms.counts, 4 * builder.pairs, 4)?;
-        let entries = entries.iter().rev();
-        let entries = entries.fold(0, |sum, byte| sum << 8 | usize::from(*byte));
+        let entries = unpack_indices(&entries)[0] as usize;
         self.host.listed_there(group, entries, sorts);
         if entries > builder.room {
             builder.room = entries + entries / 8;
@@ -390,7 +389,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         let rest = [&builder.grid, &rooms.counts, &m.segments, &m.list];
         let buffers = [near, rest].concat();
         let fill = device.bind(&builder.kernels.fill, &buffers, builder.pairs);
-        device.launch(&[&fill]);
+        device.launch([&fill]);
         Ok(())
     }
 
@@ -456,11 +455,10 @@ impl<T: Real, const D: usize> Run<T, D> {
                 all.push(device.bind_over(&builder.kernels.copy, &buffers, extent));
             }
         }
-        device.launch(&all.iter().collect::<Vec<_>>());
-        let bytes = device.download(order, 0, 4 * mobile)?;
-        let order = bytes.as_chunks::<4>().0.iter();
-        let order = order.map(|own| u32::from_ne_bytes(*own));
-        Ok(order.chain(mobile as u32..slots as u32).collect())
+        device.launch(&all);
+        let order = unpack_indices(&device.download(order, 0, 4 * mobile)?);
+        let rest = mobile as u32..slots as u32;
+        Ok(order.into_iter().chain(rest).collect())
     }
 
     /// The neighbour lists of a group as the device has them. Groups are numbered as in
@@ -476,8 +474,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         let (m, width) = (&own.memory, own.sizes.cluster);
         let words = |from: &Buffer, count: usize| -> Result<Vec<u32>, Error> {
             let bytes = self.device.download(from, 0, 4 * count)?;
-            let words = bytes.as_chunks::<4>().0.iter();
-            Ok(words.map(|own| u32::from_ne_bytes(*own)).collect())
+            Ok(unpack_indices(&bytes))
         };
         let clusters = words(&m.clusters, 2 * (own.sizes.layout.slots / width) + 2)?;
         let segments = clusters.get(clusters.len() - 2).copied().unwrap_or(0);

@@ -408,7 +408,7 @@ impl PairKernel {
         let bytes = count * self.sums * self.precision.bytes();
         let rows = device.room("the sums", bytes)?;
         let buffers = [&records, &shared, &clusters, &segments, &list, &rows];
-        device.launch(&[&device.bind(&self.kernel, &buffers, count)]);
+        device.launch([&device.bind(&self.kernel, &buffers, count)]);
         Ok(unpack(&device.download(&rows, 0, bytes)?, self.precision))
     }
 }

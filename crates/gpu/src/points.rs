@@ -86,7 +86,7 @@ impl PointKernel {
         let columns = device.upload("what the particles have", &pack(all, self.precision))?;
         let bytes = self.results * count * self.precision.bytes();
         let results = device.room("the results", bytes)?;
-        device.launch(&[&device.bind(&self.kernel, &[&columns, &results], count)]);
+        device.launch([&device.bind(&self.kernel, &[&columns, &results], count)]);
         let found = unpack(&device.download(&results, 0, bytes)?, self.precision);
         Ok(found.chunks(count.max(1)).map(<[f64]>::to_vec).collect())
     }

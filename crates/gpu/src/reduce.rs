@@ -36,6 +36,8 @@ pub struct Reduction {
     first: Kernel,
     later: Kernel,
     pub outputs: usize,
+    /// Where it is bound once and for all.
+    pub bound: Vec<Bound>,
 }
 
 const BUFFERS: [Array; 2] = [Array::numbers("given"), Array::numbers("found").written()];
@@ -108,6 +110,7 @@ impl Reduction {
             first: kernel(true)?,
             later: kernel(false)?,
             outputs: finds.iter().map(|find| find.outputs()).sum(),
+            bound: Vec::new(),
         })
     }
 

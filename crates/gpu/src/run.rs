@@ -216,9 +216,7 @@ impl<T: Real, const D: usize> Run<T, D> {
     ///
     /// As [`run_until`](Self::run_until).
     pub fn step(&mut self) -> Result<f64, Error> {
-        self.go_on()?;
-        self.look()?;
-        match self.host.advance(f64::INFINITY)? {
+        match self.next(f64::INFINITY)? {
             Advance::Step(size) => self.take_step(size).map(|()| size),
             _ => Ok(0.0),
         }
@@ -262,9 +260,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         if self.time() >= end {
             return Ok(false);
         }
-        self.go_on()?;
-        self.look()?;
-        match self.host.advance(end)? {
+        match self.next(end)? {
             Advance::Done => return Ok(false),
             Advance::Step(size) => {
                 self.take_step(size)?;
@@ -315,8 +311,8 @@ impl<T: Real, const D: usize> Run<T, D> {
         own.map_err(|error| self.host.fail(error).into())
     }
 
-    /// Goes on from the state after the last step, where another was shown.
-    fn go_on(&mut self) -> Result<(), Error> {
+    /// Goes on from the state after the last step, where another was shown: what is to be done next until `end` \[s\].
+    fn next(&mut self, end: f64) -> Result<Advance, Error> {
         if let Some(error) = self.refused.take() {
             return Err(error);
         }
@@ -324,7 +320,8 @@ impl<T: Real, const D: usize> Run<T, D> {
         if self.host.return_to_last_step() {
             self.send_all()?;
         }
-        Ok(())
+        self.look()?;
+        Ok(self.host.advance(end)?)
     }
 
     /// Takes the state of the host to the device, with the forces of its rates.
@@ -419,9 +416,9 @@ impl<T: Real, const D: usize> Run<T, D> {
         let moment = self.host.begin_vote();
         for (number, group) in self.groups.iter().enumerate() {
             self.share(number, &moment);
-            let mut all = group.compiled.of(&group.compiled.lists.vote);
-            all.extend(&group.compiled.of_vote);
-            self.device.launch(&all);
+            let own = &group.compiled;
+            let all = own.of(&own.lists.vote).into_iter();
+            self.device.launch(all.chain(&own.vote.bound));
         }
         let (votes, forces) = self.votes()?;
         // Those of rates that came from the host are known.
@@ -434,7 +431,8 @@ impl<T: Real, const D: usize> Run<T, D> {
             criterion: vote[2] as usize,
             speed2: vote[3],
             length: vote[4],
-            range: [vote[5..5 + D].to_vec(), vote[5 + D..5 + 2 * D].to_vec()],
+            acceleration: vote[5],
+            range: [vote[6..6 + D].to_vec(), vote[6 + D..6 + 2 * D].to_vec()],
         });
         let found: Vec<_> = found.collect();
         if found.iter().any(|found| found.step < 0.0) {
@@ -448,9 +446,8 @@ impl<T: Real, const D: usize> Run<T, D> {
             } = &groups[number];
             let shared = host.shared(number, &moment).into_iter();
             device.write(&memory.shared, &pack(shared, precision));
-            let mut all = compiled.of(&compiled.lists.approach);
-            all.extend(&compiled.of_approach);
-            device.launch(&all);
+            let all = compiled.of(&compiled.lists.approach).into_iter();
+            device.launch(all.chain(&compiled.approach.bound));
             let bytes = compiled.approach.outputs * precision.bytes();
             let found = unpack(&device.download(&memory.meetings, 0, bytes)?, precision);
             let own = Approaching {

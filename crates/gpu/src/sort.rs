@@ -31,11 +31,9 @@ fn levels(count: usize) -> Vec<(usize, usize)> {
 
 impl Scan {
     pub fn new(device: &Device, dialect: Dialect) -> Result<Self, Error> {
+        let end = format!("scene.stride + min(n * {SHARE}u + {SHARE}u, scene.length)");
         let share = dialect.index("start", &format!("scene.stride + n * {SHARE}u"))
-            + &dialect.index(
-                "end",
-                &format!("scene.stride + min(n * {SHARE}u + {SHARE}u, scene.length)"),
-            )
+            + &dialect.index("end", &end)
             + &dialect.counter("sum", "0u");
         let each = dialect.each("k", "start", "end");
         let add = format!(

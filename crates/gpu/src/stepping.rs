@@ -39,8 +39,8 @@ impl<T: Real, const D: usize> Run<T, D> {
             return;
         }
         (0..self.groups.len()).for_each(|group| self.share(group, moment));
-        let all: Vec<_> = self.links.iter().map(|link| &link.bound[what]).collect();
-        self.device.launch(&all);
+        let all = self.links.iter().map(|link| &link.bound[what]);
+        self.device.launch(all);
     }
 
     /// The same as [`act`](Self::act) of a group; whether lists were built anew.
@@ -49,7 +49,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         for part in pieces.split_inclusive(|piece| !matches!(piece, Piece::Kernel(_))) {
             let kernels = self.groups[group].compiled.of(part);
             if !kernels.is_empty() {
-                self.device.launch(&kernels);
+                self.device.launch(kernels);
             }
             match part.last() {
                 Some(Piece::Lists) => rebuilt |= self.bring_lists(group, moment)?,
@@ -75,8 +75,7 @@ impl<T: Real, const D: usize> Run<T, D> {
             }
             self.act_on(group, &pieces, moment)?;
             let own = &self.groups[group];
-            let all: Vec<_> = own.compiled.of_open.iter().collect();
-            self.device.launch(&all);
+            self.device.launch(&own.compiled.open.bound);
             if self.read(&own.memory.moves, 1)?[0] == 0.0 {
                 break;
             }
@@ -89,19 +88,18 @@ impl<T: Real, const D: usize> Run<T, D> {
         let walls = self.host.place_walls(group, moment);
         self.write(group, &walls);
         let own = &self.groups[group];
-        if own.compiled.lists.moved.is_empty() {
+        if own.compiled.lists.moved.is_empty() || self.host.surely_serve(group, moment.time) {
             return Ok(false);
         }
-        let mut all = own.compiled.of(&own.compiled.lists.moved);
-        all.extend(&own.compiled.of_moved);
-        self.device.launch(&all);
+        let all = own.compiled.of(&own.compiled.lists.moved).into_iter();
+        self.device.launch(all.chain(&own.compiled.moved.bound));
         let found = self.read(&own.memory.moves, own.compiled.moved.outputs)?;
         let moved = Moved {
             farthest2: found[0],
             grown: found[1],
             range: [found[2..2 + D].to_vec(), found[2 + D..].to_vec()],
         };
-        let is_outdated = self.host.is_outdated(group, &moved, moment.time);
+        let is_outdated = self.host.is_outdated(group, moved, moment.time);
         if is_outdated {
             if self.rebuild(group, moment.time)? {
                 self.meet_as_listed(group)?;
@@ -231,8 +229,7 @@ impl<T: Real, const D: usize> Stepping<'_, T, D> {
         }
         let run = &mut *self.run;
         for group in &run.groups {
-            let all: Vec<_> = group.compiled.of_vote.iter().collect();
-            run.device.launch(&all);
+            run.device.launch(&group.compiled.vote.bound);
         }
         match run.votes() {
             Ok((_, forces)) => run.book(forces),

@@ -75,8 +75,7 @@ impl<T: Real, const D: usize> Run<T, D> {
         for number in 0..self.contacts.len() {
             loop {
                 let contact = &self.contacts[number];
-                self.device
-                    .launch(&contact.bound.iter().collect::<Vec<_>>());
+                self.device.launch(&contact.bound);
                 let width = contact.width();
                 let sides = self.host.couplings()[number].sides.len();
                 let found = self.read(&contact.found, width * sides)?;

@@ -90,6 +90,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         state.evaluations += 1;
         state.rates_at_hand = true;
         for (group, own) in state.groups.iter_mut().zip(&mut self.recorded) {
+            own.travel.evaluate();
             group.gravity = gravity;
             group.work.evaluated_gravity = gravity.map(T::from_f64);
             group.work.evaluated_time = time;
@@ -112,8 +113,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// A kick over `dt` \[s\].
-    #[must_use]
-    pub fn begin_kick(&self, dt: f64) -> Moment {
+    pub fn begin_kick(&mut self, dt: f64) -> Moment {
+        let all = self.recorded.iter_mut();
+        all.for_each(|own| own.travel.kick(dt));
         Moment::over(self.simulation.state.time, dt)
     }
 
@@ -131,6 +133,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let begin = self.simulation.state.time + offset;
         let middle = begin + 0.5 * dt;
         self.simulation.state.impulses.time = begin + dt;
+        let all = self.recorded.iter_mut();
+        all.for_each(|own| own.travel.drift(dt));
         let groups = &self.simulation.state.groups;
         if !groups.iter().all(Group::drifts_at_once) {
             let gravity = self.simulation.uniform_loads(middle)?;
@@ -147,6 +151,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     /// A shift by `dv` \[s\] times the velocity and `da` \[s²\] times the acceleration.
     pub fn begin_shift(&mut self, dv: f64, da: f64) -> Moment {
         self.simulation.state.impulses.time += dv;
+        self.forget_travel();
         Moment {
             over: [dv, da],
             ..Moment::over(self.simulation.state.time, dv)
@@ -291,6 +296,9 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     /// Goes back to the state after the last step; whether another was shown, which the device has.
     pub fn return_to_last_step(&mut self) -> bool {
         let between = self.simulation.last_step().is_some();
+        if between {
+            self.forget_travel();
+        }
         self.simulation.return_to_last_step();
         between
     }

@@ -2,10 +2,11 @@
 //! The host decides when, and knows which particle is in which slot.
 
 use super::Offloaded;
+use super::state::Moved;
 use crate::neighbors::Grid;
 use crate::scalar::Real;
-use crate::sweep::Interaction;
 use crate::simulation::Group;
+use crate::sweep::Interaction;
 
 /// Most blocks of a group whose lists a device builds: it looks for neighbours in each by itself.
 const MOST_BLOCKS: usize = 32;
@@ -60,13 +61,13 @@ pub struct Search<const D: usize> {
     pub skin: f64,
 }
 
-impl<T: Real, const D: usize> Offloaded<T, D> {
 /// The least spacing of bodies \[m\].
 fn finest<T: Real, const D: usize>(group: &Group<T, D>) -> f64 {
     let spacings = group.particles.bodies.iter().map(|own| own.spacing);
     spacings.fold(f64::INFINITY, f64::min)
 }
 
+impl<T: Real, const D: usize> Offloaded<T, D> {
     /// Whether a device may build the lists of a group: of present neighbours, and in few blocks. It sorts bodies alone: walls that are
     /// bodies of other groups, which the host sorts too, stay as they are.
     #[must_use]
@@ -123,7 +124,6 @@ fn finest<T: Real, const D: usize>(group: &Group<T, D>) -> f64 {
                 .is_none_or(|[least, most]| least > 0.0 && most <= WIDEST * least)
     }
 
-    /// How neighbours are found within some bounds.
     /// How many particles a thread of the device looks at where they are closest within some bounds: those in the cells around each of a
     /// cluster.
     #[must_use]
@@ -138,6 +138,7 @@ fn finest<T: Real, const D: usize>(group: &Group<T, D>) -> f64 {
         self.cluster() as f64 * around.powi(D as i32)
     }
 
+    /// How neighbours are found within some bounds.
     #[must_use]
     pub fn search(&self, group: usize, bounds: &Bounds<D>) -> Search<D> {
         let group = &self.simulation.state.groups[group];
@@ -160,6 +161,7 @@ fn finest<T: Real, const D: usize>(group: &Group<T, D>) -> f64 {
     pub fn begin_lists(&mut self, number: usize, time: f64) -> bool {
         let own = &mut self.recorded[number];
         own.is_listed_there = true;
+        own.travel.is_at(Moved::none(D));
         let group = &mut self.simulation.state.groups[number];
         group.neighborhood.choose_skin();
         group.begin_rebuild(time);

@@ -22,6 +22,7 @@ mod state;
 mod states;
 mod structures;
 mod transfer;
+mod travel;
 mod vote;
 
 pub use clock::{Advance, Moment};
@@ -48,6 +49,7 @@ use crate::scalar::Real;
 use laws::Timed;
 use record::Recorder;
 use std::sync::Arc;
+use travel::{Travel, is_bounded};
 
 /// A simulation whose steps run on a device.
 ///
@@ -79,7 +81,7 @@ pub struct Offloaded<T: Real, const D: usize> {
 }
 
 /// A group of bodies under one scheme, recorded.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Recorded {
     program: Arc<Program>,
     timed: Vec<Timed>,
@@ -97,6 +99,9 @@ struct Recorded {
     is_listed_there: bool,
     /// The acceleration that pairs on the device were told of; none if not yet.
     body_force: Vec<f64>,
+    /// How far particles have gone at most, and whether that can be told.
+    travel: Travel,
+    is_bounded: bool,
 }
 
 impl<T: Real, const D: usize> core::fmt::Debug for Offloaded<T, D> {
@@ -169,8 +174,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                     },
                     kept: kept.unwrap_or(Fields::NONE),
                     counted: vec![0; program.counts.len()],
+                    is_bounded: is_bounded(&groups[number], &program),
+                    travel: Travel::unknown(D),
                     program: Arc::new(program),
-                    ..Recorded::default()
+                    since_lengths: [0.0; 3],
+                    entries: 0,
+                    is_listed_there: false,
+                    body_force: Vec::new(),
                 };
                 own.recorded.push(recorded);
                 problems.extend(found);

@@ -3,6 +3,7 @@
 
 use super::program::{Action, Given, KeepStep, Made, SweepStep};
 use super::record::{DT, HALF, Recorder, add, carried, evaluated};
+use super::travel::{DRIFT, KICK};
 use crate::effect::When;
 use crate::particles::{Field, Fields, Output};
 use crate::scalar::{Lane, Real, Traced};
@@ -24,7 +25,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
             given.push(evaluated::<D>(d));
         }
         let made = (0..D).map(|d| Made::Field(Field::VELOCITY, d)).collect();
-        self.on_each("kick", self.bodies(), (given, made), |x| {
+        self.on_each(KICK, self.bodies(), (given, made), |x| {
             let own = |d: usize| {
                 let [v, force, gravity] = [0, 1, 2].map(|k| x[2 + 3 * d + k]);
                 v + x[0] * (force / x[1] + gravity)
@@ -172,7 +173,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         let (lost, first) = (given.len() > D, given.len());
         given.push(dt);
         given.extend((0..D).map(|d| Given::Field(Field::VELOCITY, d)));
-        self.on_each("drift", self.bodies(), (given, made), |x| {
+        self.on_each(DRIFT, self.bodies(), (given, made), |x| {
             displaced::<D>(x, lost, |d| x[first] * x[first + 1 + d])
         })
     }

@@ -348,7 +348,7 @@ pub struct Program {
     /// The fields of these states, as their columns stand.
     pub state: Vec<Field>,
     /// Of every particle its largest stable step \[s\], negative where its state is broken, the number of its criterion, the square of
-    /// its speed, its velocity and its smoothing length.
+    /// its speed, its velocity, its smoothing length and its acceleration.
     pub vote: Vec<Action>,
     /// Where pairs may close too fast: the sweep that tells by how much, and of every particle its largest stable step \[s\] and
     /// minus the closing speed over the mean sound speed.
@@ -382,7 +382,7 @@ impl Program {
     /// How many columns votes and displacements make in `d` dimensions; what is [repeated](RepeatStep) has those behind them.
     #[must_use]
     pub const fn common(d: usize) -> usize {
-        4 + d
+        5 + d
     }
 
     /// All actions.

@@ -25,6 +25,17 @@ pub struct Moved {
     pub grown: f64,
 }
 
+impl Moved {
+    /// Nothing has moved in `dimensions` dimensions.
+    pub(super) fn none(dimensions: usize) -> Self {
+        Self {
+            farthest2: 0.0,
+            range: [vec![0.0; dimensions], vec![0.0; dimensions]],
+            grown: 0.0,
+        }
+    }
+}
+
 impl<T: Real, const D: usize> Offloaded<T, D> {
     /// The columns of all particles of a group, those of walls behind those of bodies.
     #[must_use]
@@ -293,19 +304,22 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     }
 
     /// Whether lists are outdated at a time \[s\]; else they serve once more.
-    pub fn is_outdated(&mut self, group: usize, moved: &Moved, time: f64) -> bool {
-        let is_outdated = self.has_used_skin(group, moved, time);
+    pub fn is_outdated(&mut self, group: usize, moved: Moved, time: f64) -> bool {
+        let is_outdated = self.has_used_skin(group, &moved, 0.0, time);
+        self.recorded[group].travel.is_at(moved);
         let neighborhood = &mut self.simulation.state.groups[group].neighborhood;
         neighborhood.served += u32::from(!is_outdated);
         is_outdated
     }
 
-    fn has_used_skin(&self, group: usize, moved: &Moved, time: f64) -> bool {
+    /// Whether particles that have moved so far, and by a share more, have used up the skin.
+    pub(super) fn has_used_skin(&self, group: usize, moved: &Moved, more: f64, time: f64) -> bool {
         let group = &self.simulation.state.groups[group];
         let shift = group.carried_since_listed(time);
         let left = group
             .neighborhood
             .left(&group.boundaries, moved.grown, (shift, time));
+        let left = left / (1.0 + more);
         let farthest = moved.farthest2.sqrt();
         if 2.0 * farthest <= left || !group.is_open() {
             return 2.0 * farthest > left;
@@ -317,6 +331,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
 
     /// Builds lists for the places of the columns, which it may sort anew, at a time \[s\].
     pub fn rebuild(&mut self, number: usize, time: f64) {
+        self.recorded[number].travel.is_at(Moved::none(D));
         let group = &mut self.simulation.state.groups[number];
         group.neighborhood.choose_skin();
         group.re_enter(time);

@@ -154,6 +154,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     /// Keeps the present state in a slot of an integrator, or brings it back.
     pub fn begin_state(&mut self, slot: usize, saves: bool) -> Moment {
         self.keeps_states = true;
+        self.forget_travel();
         let state = &mut self.simulation.state;
         if saves {
             state.save_impulses(slot);
@@ -172,6 +173,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         forces: &[Forces<D>],
     ) -> Moment {
         let rates = self.with_forces(forces, |own| own.impulse_rates());
+        self.forget_travel();
         let state = &mut self.simulation.state;
         state.combine_impulses(slot, [a, b, dt], &rates);
         Moment {

@@ -38,6 +38,8 @@ pub struct Found {
     pub range: [Vec<f64>; 2],
     /// The least smoothing length \[m\].
     pub length: f64,
+    /// The largest acceleration \[m/s²\].
+    pub acceleration: f64,
 }
 
 /// What pairs that approach each other ask for.
@@ -61,10 +63,10 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         for run in self.walls() {
             let velocity = (0..D).map(|d| Given::Field(Field::VELOCITY, d));
             let given = velocity.chain([self.length()]).collect();
-            let made = (0..4 + D).map(Made::Column).collect();
+            let made = (0..5 + D).map(Made::Column).collect();
             let step = PointStep::new("vote of walls", &run, (given, made), |x| {
-                let none = [Traced::of(f64::INFINITY), Traced::of(0.0)];
-                [&none[..], &[square(&x[..D])], x].concat()
+                let [none, zero] = [f64::INFINITY, 0.0].map(Traced::of);
+                [&[none, zero, square(&x[..D])], x, &[zero]].concat()
             });
             self.program.vote.extend(step.map(Action::Points));
         }
@@ -153,7 +155,7 @@ impl<T: Real, const D: usize> Recorder<'_, T, D> {
         } else {
             f64::MAX
         };
-        let made = (0..4 + D).map(Made::Column).collect();
+        let made = (0..5 + D).map(Made::Column).collect();
         let asked = Asked {
             viscous,
             first,
@@ -297,7 +299,12 @@ impl Asked {
         let velocity = &x[first + 2 * D..first + 3 * D];
         let sound = sound & is_number(&acceleration);
         let step = Lane::select(sound, step, Traced::of(-1.0));
-        [&[step, kind, square(velocity)], velocity, &[x[4]]].concat()
+        [
+            &[step, kind, square(velocity)],
+            velocity,
+            &[x[4], acceleration],
+        ]
+        .concat()
     }
 }
 
@@ -342,6 +349,8 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         for (k, found) in found.iter().enumerate() {
             let (shifted, range) = self.range_with_images(k, &found.range);
             self.recorded[k].range = [range, vec![found.length]].concat();
+            let are_there_walls = !self.simulation.state.groups[k].walls.is_empty();
+            self.recorded[k].travel.vote(found, are_there_walls);
             if !self.may_meet(k, (found, shifted), vote.step) {
                 continue;
             }

@@ -103,19 +103,21 @@ fn what_crosses_the_bus_is_counted() {
             built.push(own);
         }
     }
+    // By speeds and accelerations the host knows for most steps that lists serve, and asks where the skin may be used up.
+    let (told, asked): (Vec<[u64; 4]>, Vec<_>) = quiet.iter().partition(|own| own[3] == 1);
     println!(
-        "launches, bytes sent and received, waits: {:?}; with a list build {built:?}",
-        quiet[0]
+        "launches, bytes sent and received, waits: {:?}, {} steps more ask; with a list build {built:?}",
+        told[0],
+        asked.len()
     );
-    assert!(quiet.iter().all(|own| *own == quiet[0]), "{quiet:?}");
-    let [launches, sent, received, waits] = quiet[0];
-    assert!(
-        launches <= 36 && waits == 3,
-        "{launches} launches, {waits} waits"
-    );
+    assert!(told.iter().all(|own| *own == told[0]), "{told:?}");
+    assert!(asked.iter().all(|own| own[3] <= 3), "{asked:?}");
+    assert!(2 * asked.len() < told.len(), "{} steps", asked.len());
+    let [launches, sent, received, _] = told[0];
+    assert!(launches <= 32, "{launches} launches");
     // None of it grows with the number of particles.
     assert!(
-        sent <= 1000 && received <= 250,
+        sent <= 1000 && received <= 120,
         "{sent} and {received} bytes"
     );
     // A list build adds a handful of numbers, and after a sort which particle is where.
@@ -132,6 +134,25 @@ fn what_crosses_the_bus_is_counted() {
         plain > 0 && sorted > 0,
         "{plain} builds, {sorted} with a sort"
     );
+}
+
+#[test]
+fn lists_are_looked_at_where_speeds_do_not_tell() {
+    let Some(device) = device("what speeds do not tell") else {
+        return;
+    };
+    // Particles that are shifted, and a wall that swings.
+    let mut run = load(&device, super::stirred::<f64>(false));
+    let mut host = build(super::stirred::<f64>(false));
+    run.step().unwrap();
+    host.step().unwrap();
+    for _ in 0..10 {
+        let before = device.traffic().waits;
+        run.step().unwrap();
+        host.step().unwrap();
+        assert!(device.traffic().waits >= before + 3);
+    }
+    assert_eq!(run.list_builds(), host.list_builds());
 }
 
 /// Water that is thrown at a wall, at a share of its speed of sound.
