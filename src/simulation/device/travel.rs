@@ -190,7 +190,9 @@ mod tests {
             }
             travel.drift(dt);
             for share in [MIDDLE, 1.0] {
-                all.iter_mut().for_each(|own| own[0] += 0.5 * dt * own[1]);
+                for own in &mut all {
+                    own[0] += 0.5 * dt * own[1];
+                }
                 let Moved {
                     farthest2, range, ..
                 } = travel.after(share);
