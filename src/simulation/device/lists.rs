@@ -134,6 +134,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
             Some([least, most]) => [least / group.scheme.h_over_dx(), most],
             None => [finest(group), near.smoothing_length],
         };
+        // A reach to either side, and half a reach for the cells at both ends: in one dimension, where cells are wider, there are few.
         let around = 2.5 * (near.support * most + near.skin) / spacing;
         self.cluster() as f64 * around.powi(D as i32)
     }

@@ -62,11 +62,13 @@ impl Travel {
         }
     }
 
+    /// A drift has ended, and the next vote tells accelerations.
     pub fn evaluate(&mut self) {
         self.drift(0.0);
         self.acceleration = f64::INFINITY;
     }
 
+    /// Velocities change over `dt` \[s\] by no more than the largest acceleration makes of it.
     pub fn kick(&mut self, dt: f64) {
         let more = self.acceleration * dt.abs();
         self.speed += more;
@@ -76,6 +78,7 @@ impl Travel {
         }
     }
 
+    /// A drift over `dt` \[s\] begins, where the last one ends.
     pub fn drift(&mut self, dt: f64) {
         self.gone = self.after(1.0);
         (self.share, self.dt) = (0.0, dt);
