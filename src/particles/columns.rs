@@ -152,20 +152,6 @@ impl<T: Real, const D: usize> Columns<T, D> {
         some
     }
 
-    /// A copy with room for so many slots.
-    pub(crate) fn with_room(&self, slots: usize) -> Self {
-        let mut copy = Self {
-            data: vec![Vec::new(); self.data.len()],
-            ..*self
-        };
-        for (copy, own) in copy.data.iter_mut().zip(&self.data) {
-            let room = own.len().checked_div(self.slots).unwrap_or(0) * slots;
-            copy.reserve_exact(room.max(own.len()));
-            copy.extend_from_slice(own);
-        }
-        copy
-    }
-
     /// Rearranges the slots: slot k becomes what slot `order[k]` was.
     pub fn permute(&mut self, order: &[u32]) {
         self.slots = order.len();

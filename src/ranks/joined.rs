@@ -3,10 +3,66 @@
 
 use super::{Taken, Team, What, put_number, put_numbers};
 use crate::scalar::Real;
+use core::cell::Cell;
 use std::ops::Range;
 
 /// Numbers of all ranks in one message.
-const PIECE: usize = 1 << 20;
+const PIECE: usize = 1 << 18;
+
+/// From where a rank gets numbers of the others.
+#[derive(Clone, Copy)]
+pub(crate) enum Source<'a> {
+    /// From all of them, at once, for what it is.
+    All(&'a Team, What),
+    /// From what they offer, which they go on without.
+    Offer(&'a Asked<'a>),
+}
+
+/// Parts of an offer, one after another.
+pub(crate) struct Asked<'a> {
+    team: &'a Team,
+    number: u64,
+    part: Cell<usize>,
+}
+
+impl<'a> Asked<'a> {
+    pub fn new(team: &'a Team, number: u64) -> Self {
+        let part = Cell::new(0);
+        Self { team, number, part }
+    }
+}
+
+impl Source<'_> {
+    /// The ranks.
+    pub fn team(&self) -> &Team {
+        match self {
+            Self::All(team, _) => team,
+            Self::Offer(asked) => asked.team,
+        }
+    }
+
+    /// Gets the numbers of each rank where its runs are among those of all, and behind them what each rank adds.
+    pub fn numbers<T: Real>(
+        &self,
+        all: &mut [T],
+        runs_of: impl Fn(usize) -> [Range<usize>; 2],
+        added: Vec<u8>,
+        mut take_added: impl FnMut(usize, &mut Taken<'_>) -> Option<()>,
+    ) {
+        match self {
+            Self::All(team, what) => team.gather_numbers(*what, all, runs_of, added, take_added),
+            Self::Offer(asked) => {
+                let part = asked.part.replace(asked.part.get() + 1);
+                asked.team.ask(asked.number, part, |rank, from| {
+                    for run in runs_of(rank) {
+                        from.numbers(all.get_mut(run)?)?;
+                    }
+                    take_added(rank, from)
+                });
+            }
+        }
+    }
+}
 
 impl Team {
     /// Shows the numbers of each rank, of which all have as many; those of this one alone where a rank has failed.
@@ -29,7 +85,7 @@ impl Team {
 
     /// Gets the numbers of each rank where its runs are among those of all. In pieces, so that no message is large; with the first
     /// goes what each rank adds to it.
-    pub fn gather_numbers<T: Real>(
+    fn gather_numbers<T: Real>(
         &self,
         what: What,
         all: &mut [T],

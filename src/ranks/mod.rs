@@ -17,12 +17,16 @@
 //! the sums of all, and all else is done on every rank of all particles.
 //!
 //! What a rank sums for a particle is what one process sums, in the same order, so bits depend on neither the number of ranks
-//! nor the threads of each, nor on how chunks are cut, nor on the form of a step. Every rank holds the whole state when a call returns:
-//! any method that reads a simulation gives the same values on all of them and needs no message.
+//! nor the threads of each, nor on how chunks are cut, nor on the form of a step. Any method that reads a simulation gives the same values
+//! on all of them.
 //!
-//! Lists are divided, and between list builds so is all else. Where lists are built every rank holds the places of all particles, with
-//! boundaries that turn what crosses them, as mirror planes, all of their columns, and when a call returns the whole scene but the lists
-//! of others, which a reading that needs them makes.
+//! A rank may read alone: where a call has left each with its own particles, who reads asks the others for theirs, once until the next call,
+//! and they answer in whatever they call next, or where they drop the simulation. What all know already, as times, counts of
+//! steps and numbers of particles, needs no message.
+//!
+//! Lists are divided, and between list builds so is all else. A rank holds all particles where it builds the scene, in the other form
+//! of a step, and where it reads, but for the lists of others, which a reading that needs them makes. Where lists are built it holds the
+//! places of all, and with boundaries that turn what crosses them, as mirror planes, all of their columns.
 //!
 //! ```
 //! use meshfree::prelude::*;
@@ -78,6 +82,7 @@ mod traffic;
 
 pub(crate) use bytes::{Taken, put_number, put_numbers, put_words};
 pub(crate) use division::{Division, even};
+pub(crate) use joined::{Asked, Source};
 pub use model::{Network, RankCost, RankCostLine, RankModel, RankParts, RankPrice};
 pub(crate) use team::{Stamp, Team, What};
 pub use threads::in_threads;
@@ -85,6 +90,10 @@ pub(crate) use traffic::Letters;
 pub use traffic::Traffic;
 
 use crate::error::Failure;
+use std::sync::Arc;
+
+/// What a rank shows others between calls: each part of it, by its number.
+pub type Offer = Arc<dyn Fn(usize) -> Vec<u8> + Send + Sync>;
 
 /// How a rank reaches the others.
 ///
@@ -132,5 +141,27 @@ pub trait Ranks: core::fmt::Debug + Send + Sync {
         self.exchange(own.0, own.1, all.0, all.1)?;
         meanwhile();
         Ok(())
+    }
+
+    /// Shows the other ranks `own` on request, until it is withdrawn, while this rank is in any method of this trait, and returns the
+    /// number of the offer: how many this rank has made before. All ranks make one at once, which is no message. If it is not written,
+    /// all ranks get all where a call ends.
+    fn offer(&self, own: Offer) -> Option<u64> {
+        let _ = own;
+        None
+    }
+
+    /// Shows it no more. All ranks have gathered since they made the offer, so none asks for it now.
+    fn withdraw(&self, number: u64) {
+        let _ = number;
+    }
+
+    /// A part of what another rank offers under this number, or is about to. One rank may ask while others do something else.
+    ///
+    /// # Errors
+    /// If the rank cannot be reached any more, or has withdrawn it.
+    fn ask(&self, rank: usize, number: u64, part: usize) -> Result<Vec<u8>, Failure> {
+        let _ = (rank, number, part);
+        Err("these ranks make no offers".into())
     }
 }

@@ -1,8 +1,8 @@
 //! What ranks say to each other: parts of sums and lists, whether all is well, and where they are.
 //! Each gathering begins with a header of every rank, so an error or another program on one of them reaches all.
 
-use super::Ranks;
 use super::traffic::{Given, Letters, Traffic};
+use super::{Offer, Ranks, Taken};
 use crate::clock::Instant;
 use crate::error::{Error, Failure};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -27,6 +27,8 @@ pub(crate) enum What {
     State,
     /// Particles near those of another rank.
     Ghosts,
+    /// The end of what ranks show each other.
+    Shown,
 }
 
 impl What {
@@ -314,6 +316,47 @@ impl Team {
         };
         *self.broken() = Some(own);
         false
+    }
+
+    /// Shows the others `own` from now on, under a number of which all ranks have the same.
+    pub fn offer(&self, own: Offer) -> Option<u64> {
+        self.ranks.offer(own)
+    }
+
+    /// Waits until no rank asks for it any more.
+    pub fn withdraw(&self, number: u64) {
+        // Who panics has no time, and tells the others otherwise.
+        if !std::thread::panicking() {
+            self.gather(What::Shown, |_| {}, |_, _| Some(()));
+        }
+        self.ranks.withdraw(number);
+    }
+
+    /// Shows what each other rank has of a part of what all offer.
+    pub fn ask(
+        &self,
+        number: u64,
+        part: usize,
+        mut take: impl FnMut(usize, &mut Taken<'_>) -> Option<()>,
+    ) {
+        let start = Instant::now();
+        for rank in (0..self.count()).filter(|rank| *rank != self.rank()) {
+            if self.is_broken() {
+                return;
+            }
+            let asked = self.ranks.ask(rank, number, part);
+            let taken = asked.map_err(|why| self.unreachable(&why)).and_then(|own| {
+                self.buffers().traffic.received += own.len() as u64;
+                let mut from = Taken(&own);
+                take(rank, &mut from)
+                    .filter(|()| from.0.is_empty())
+                    .ok_or_else(|| broken(rank, "what it shows is not that of the same scene"))
+            });
+            if let Err(own) = taken {
+                *self.broken() = Some(own);
+            }
+        }
+        self.buffers().traffic.waited += start.elapsed();
     }
 
     /// Ends a call on all ranks: as it did on this one if it did so on all, and with an error if it failed on another, or if

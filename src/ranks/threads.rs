@@ -1,7 +1,7 @@
 //! Ranks as threads of one process: each has a pool of threads of its own, and they meet in memory.
 //! So that what runs on a cluster is tested on one machine, without MPI.
 
-use super::Ranks;
+use super::{Offer, Ranks};
 use crate::error::{Error, Failure, Problem};
 use crate::parallel::Pool;
 use std::panic::resume_unwind;
@@ -43,7 +43,10 @@ pub fn in_threads<V: Send>(
     let hall = Arc::new(Hall {
         parts: (0..count).map(|_| RwLock::default()).collect(),
         letters: (0..count).map(|_| RwLock::default()).collect(),
-        meeting: Mutex::default(),
+        meeting: Mutex::new(Meeting {
+            offers: vec![Offers::default(); count],
+            ..Meeting::default()
+        }),
         met: Condvar::new(),
     });
     let program = &program;
@@ -87,6 +90,21 @@ struct Meeting {
     number: u64,
     /// A rank that has ended.
     gone: Option<usize>,
+    /// What each rank offers.
+    offers: Vec<Offers>,
+}
+
+/// Offers of a rank: how many it has made, and those that stand.
+#[derive(Clone, Default)]
+struct Offers {
+    made: u64,
+    standing: Vec<(u64, Offer)>,
+}
+
+impl core::fmt::Debug for Offers {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{} of {} offers", self.standing.len(), self.made)
+    }
 }
 
 impl Hall {
@@ -106,12 +124,17 @@ impl Hall {
             return Ok(());
         }
         while own.number == number {
-            if let Some(rank) = own.gone {
-                return Err(format!("rank {rank} has ended").into());
-            }
-            own = self.met.wait(own).unwrap_or_else(PoisonError::into_inner);
+            own = self.wait(own)?;
         }
         Ok(())
+    }
+
+    /// Waits until something has changed.
+    fn wait<'a>(&self, own: MutexGuard<'a, Meeting>) -> Result<MutexGuard<'a, Meeting>, Failure> {
+        if let Some(rank) = own.gone {
+            return Err(format!("rank {rank} has ended").into());
+        }
+        Ok(self.met.wait(own).unwrap_or_else(PoisonError::into_inner))
     }
 }
 
@@ -187,6 +210,37 @@ impl Ranks for Thread {
             rest = behind;
         }
         self.hall.meet()
+    }
+
+    fn offer(&self, own: Offer) -> Option<u64> {
+        let mut meeting = self.hall.meeting();
+        let offers = &mut meeting.offers[self.rank];
+        let number = offers.made;
+        offers.standing.push((number, own));
+        offers.made += 1;
+        self.hall.met.notify_all();
+        Some(number)
+    }
+
+    fn withdraw(&self, number: u64) {
+        let offers = &mut self.hall.meeting().offers[self.rank];
+        offers.standing.retain(|own| own.0 != number);
+    }
+
+    fn ask(&self, rank: usize, number: u64, part: usize) -> Result<Vec<u8>, Failure> {
+        let mut meeting = self.hall.meeting();
+        let offer = loop {
+            let offers = &meeting.offers[rank];
+            if let Some((_, own)) = offers.standing.iter().find(|own| own.0 == number) {
+                break own.clone();
+            }
+            if number < offers.made {
+                return Err(format!("rank {rank} has withdrawn what it has offered").into());
+            }
+            meeting = self.hall.wait(meeting)?;
+        };
+        drop(meeting);
+        Ok(offer(part))
     }
 }
 

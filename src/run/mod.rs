@@ -416,7 +416,7 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
                 line.update(self.simulation);
             }
         };
-        self.simulation.bring_together();
+        self.simulation.show_all();
         Ok(Summary::of(
             self.simulation,
             &first,
@@ -431,7 +431,7 @@ impl<'r, T: Real, const D: usize> Run<'r, T, D> {
         let strike = |clock: &mut Clock| clock.strikes(now, moment, is_end);
         let struck: Vec<bool> = clocks.iter_mut().map(strike).collect();
         if struck.contains(&true) {
-            self.simulation.end_parts();
+            self.simulation.show_all();
         }
         let now = &*self.simulation;
         for (observer, is_due) in self.observers.iter_mut().zip(struck) {

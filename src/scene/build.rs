@@ -89,13 +89,12 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
-        let evaluated = simulation.evaluate();
+        let evaluated = simulation.evaluate_by_parts();
         let problems = simulation.surfaces_in_tension();
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
-        evaluated?;
-        let vote = simulation.largest_fixed_step()?;
+        let vote = evaluated?;
         match fixed {
             Some(step) if step > vote.step => Err(Error::Build(BuildError {
                 problems: vec![Problem::StepAboveLimit {

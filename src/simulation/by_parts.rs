@@ -11,7 +11,7 @@ use super::vote::{Criterion, NO_VOTE, Vote};
 use crate::collective::{Corners, Join};
 use crate::error::{Error, Result};
 use crate::once::once;
-use crate::ranks::Team;
+use crate::ranks::{Asked, Team};
 use crate::scalar::Real;
 use std::sync::Arc;
 
@@ -29,15 +29,41 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(())
     }
 
-    /// Brings all particles together, and keeps them so.
-    pub(crate) fn end_parts(&mut self) {
-        self.steps_parts = false;
-        self.bring_together();
+    /// Evaluates all rates of a scene that was built, on ranks that have their own particles alone where it allows that, and returns
+    /// what a fixed step is compared with.
+    ///
+    /// # Errors
+    /// As [`evaluate`](Self::evaluate).
+    pub(crate) fn evaluate_by_parts(&mut self) -> Result<Vote> {
+        self.begin_parts()?;
+        for group in 0..self.state.groups.len() {
+            // Lists were built for the reference.
+            self.follow_moves(group);
+        }
+        self.keep_own();
+        let evaluated = self.evaluate();
+        let vote = evaluated.and_then(|()| self.found(Self::largest_fixed_step));
+        self.end_parts();
+        vote
     }
 
-    /// Whether ranks have their own particles alone.
+    /// Ends a call in which ranks may have had their own particles alone.
+    pub(crate) fn end_parts(&mut self) {
+        self.steps_parts = false;
+        self.show_all();
+    }
+
+    /// Lets readings see all particles, also where ranks go on to have their own alone.
+    pub(crate) fn show_all(&mut self) {
+        if let Some(team) = self.team.clone().filter(|_| self.is_parted()) {
+            self.join_counts();
+            self.state.offer(&team);
+        }
+    }
+
+    /// Whether ranks have their own particles alone, which are not shown.
     pub(super) fn is_parted(&self) -> bool {
-        self.state.is_parted()
+        self.state.is_hidden()
     }
 
     /// Leaves each rank its own particles before a step, where nothing in the scene looks at others than neighbours.
@@ -52,10 +78,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Brings all particles together again.
     pub(crate) fn bring_together(&mut self) {
-        if !self.is_parted() {
-            return;
-        }
-        once!(self => &mut Simulation, |own| -> () { own.state.bring_together(None) });
+        self.state.bring_together();
     }
 
     /// Adds up what ranks have counted, so that each can say what all have done.
@@ -98,15 +121,13 @@ impl<T: Real, const D: usize> State<T, D> {
         self.groups.iter().any(|group| group.all.is_some())
     }
 
-    /// Brings all particles together again. Lists that are those of another state too, of which this one is a copy, stay there.
-    pub(super) fn bring_together(&mut self, other: Option<&Self>) {
-        for (k, own) in self.groups.iter_mut().enumerate() {
-            let other = other.map(|other| &other.groups[k].neighborhood.lists);
-            own.bring_together(match other {
-                Some(lists) if Arc::ptr_eq(lists, &own.neighborhood.lists) => Lists::Elsewhere,
-                _ => Lists::Kept,
-            });
-        }
+    /// Brings all particles together again, or asks for those that are offered.
+    pub(super) fn bring_together(&mut self, lists: Lists, offer: Option<&Asked<'_>>) {
+        once!(self => &mut State, |own, lists: Lists, offer: Option<&Asked<'_>>| -> () {
+            for group in &mut own.groups {
+                group.bring_together(lists, offer);
+            }
+        });
     }
 
     /// Takes lists up that were left to a state, of all particles.
@@ -158,7 +179,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         let mut transforms = boundaries
             .flat_map(|own| (0..own.images()).map(|k| own.transform(k, time).to_scalar::<T>()));
         if transforms.any(|own| own.turns()) {
-            self.bring_together(Lists::BuiltNext);
+            self.bring_together(Lists::BuiltNext, None);
             self.neighborhood.choose_skin();
             self.rebuild(time);
             self.follow_wraps();

@@ -123,20 +123,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Gives bodies the forces of couplings between pairs, with the rates at hand.
     pub(super) fn act_in_pairs(&mut self) {
-        for couple in &mut self.state.couples {
-            couple.act(
-                &mut self.state.groups,
-                self.control.approach,
-                self.state.evaluated,
-            );
+        let state = &mut *self.state;
+        for couple in &mut state.couples {
+            couple.act(&mut state.groups, self.control.approach, state.evaluated);
         }
     }
 
     /// Books what couplings by forces work in a kick over `dt` \[s\].
     pub(super) fn record_couples(&mut self, dt: f64) {
-        for couple in &mut self.state.couples {
+        let state = &mut *self.state;
+        for couple in &mut state.couples {
             for side in 0..2 {
-                couple.work[side] += couple.work_in_kick(side, &self.state.groups, dt);
+                couple.work[side] += couple.work_in_kick(side, &state.groups, dt);
             }
         }
     }

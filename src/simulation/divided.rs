@@ -10,7 +10,7 @@ use crate::collective::over;
 use crate::error::{Error, Result};
 use crate::neighbors::{CHUNK, ClusterLists, SearchInput};
 use crate::particles::Field;
-use crate::ranks::{Division, Stamp, Taken, Team, Traffic, What};
+use crate::ranks::{Division, Source, Stamp, Taken, Team, Traffic, What};
 use crate::scalar::{Real, width};
 use crate::sweep::{InstructionSet, PairSweep, Pass, Records, Results, Root, SweepInput};
 use std::ops::Range;
@@ -179,7 +179,7 @@ impl Share {
         let numbers_of =
             |own: &[Range<usize>; 2]| own.each_ref().map(|run| rows.numbers_of(run, end));
         let numbers: Vec<_> = chunks.iter().map(numbers_of).collect();
-        rows.gather((&self.team, What::Sums), &numbers, &chunks);
+        rows.gather(Source::All(&self.team, What::Sums), &numbers, &chunks);
     }
 }
 
@@ -209,18 +209,19 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let Some(team) = &self.team else {
             return outcome;
         };
-        let parted = self.is_parted();
+        let own = self.state.own();
+        let parted = own.is_parted();
         let stamp = Stamp {
-            steps: self.state.steps,
-            time: self.state.time,
+            steps: own.steps,
+            time: own.time,
             particles: if parted { 0 } else { self.particles() },
             motion: if parted {
                 // Particles are elsewhere; loads are functions of the program.
-                let all = self.state.groups.iter().flat_map(|group| group.gravity);
+                let all = own.groups.iter().flat_map(|group| group.gravity);
                 let digits = |a: f64| (a.to_bits() ^ a.to_bits() >> 32) & 0xffff_ffff;
                 all.map(digits).sum()
             } else {
-                self.state.groups.iter().map(motion_of).sum()
+                own.groups.iter().map(motion_of).sum()
             },
         };
         team.agree(Some(stamp), outcome)

@@ -52,7 +52,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// every kick, and with walls that turn or deform a sweep over them.
     pub fn keep_energy(&mut self) {
         self.on_both(&|own| {
-            own.state.stores.forget(own.state.groups.len());
+            let groups = own.state.groups.len();
+            own.state.stores.forget(groups);
             let (kinetic, compression) = own.stored();
             let passed = own.removed().kinetic - own.entered().kinetic;
             own.state.work = Some(Work {

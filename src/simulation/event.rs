@@ -1,6 +1,7 @@
 //! Events: conditions on the state that are looked at after every step, and the times at which they first held.
 //! Loads, clamps and users ask for them; a checkpoint keeps them.
 
+use super::run_state::State;
 use super::{Simulation, find};
 use crate::error::Result;
 use crate::scalar::Real;
@@ -66,17 +67,21 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Lets clamps begin and end by what has happened, and, after a step, stops what they catch; whether any changed.
     pub(super) fn follow_clamps(&mut self, catches: bool) -> bool {
-        let happened = &self.state.happened;
+        let State {
+            happened,
+            groups,
+            time,
+            ..
+        } = &mut *self.state;
         let has = |event: Option<usize>| event.map(|event| happened[event].1.is_some());
         let mut any = false;
-        for group in &mut self.state.groups {
+        for group in groups {
             for k in 0..group.held.clamps.len() {
                 let own = &mut group.held.clamps[k];
                 let is_free = has(own.since) == Some(false) || has(own.until) == Some(true);
                 let changed = core::mem::replace(&mut own.is_free, is_free) != is_free;
                 if changed && catches && !is_free {
-                    let time = self.state.time;
-                    group.held.take_hold(k, &mut group.particles, time);
+                    group.held.take_hold(k, &mut group.particles, *time);
                 }
                 any |= changed;
             }

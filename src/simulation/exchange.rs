@@ -3,6 +3,7 @@
 
 use super::Simulation;
 use super::population::Particles;
+use super::run_state::State;
 use super::workspace::Workspace;
 use crate::error::Result;
 use crate::particles::{Field, Fields};
@@ -24,12 +25,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Gives groups the schemes that are in force by what has happened; whether any changed.
     pub(super) fn exchange_schemes(&mut self) -> bool {
         let mut any = false;
-        for group in &mut self.state.groups {
+        let State {
+            groups, happened, ..
+        } = &mut *self.state;
+        for group in groups {
             // The last in time, and of those at once the last that was named.
             let mut last = (f64::NEG_INFINITY, None);
             for (k, own) in group.exchanges.iter().enumerate() {
                 let since = match own.event {
-                    Some(event) => self.state.happened[event].1,
+                    Some(event) => happened[event].1,
                     None => Some(f64::NEG_INFINITY),
                 };
                 if let Some(since) = since.filter(|since| *since >= last.0) {

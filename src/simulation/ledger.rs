@@ -188,22 +188,24 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
     pub(super) fn follow_moves(&mut self, number: usize) {
-        let kept = &self.state.kept_impulses;
+        let state = &mut *self.state;
+        let kept = &state.kept_impulses;
         let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
-        let group = &mut self.state.groups[number];
+        let group = &mut state.groups[number];
         let mut given = core::mem::take(&mut group.given);
         given.extend(group.work.follow(&mut group.particles.moved, time_of));
         let first_boundary = group.particles.bodies.len() + group.walls.len();
         let blocks = self.blocks();
+        let state = &mut *self.state;
         for of_state in given.chunk_by(|a, b| a.0 == b.0) {
-            let indices = &self.state.groups[number].indices;
+            let indices = &state.groups[number].indices;
             for (_, [body, boundary], impulse) in of_state {
                 let pair = indices[*body] * blocks + indices[first_boundary + boundary];
                 self.pair_forces.add(pair, *impulse);
             }
             let impulses = match of_state[0].0 {
-                None => &mut self.state.impulses,
-                Some(slot) => &mut self.state.kept_impulses[slot],
+                None => &mut state.impulses,
+                Some(slot) => &mut state.kept_impulses[slot],
             };
             impulses.add_sums(&mut self.pair_forces, 1.0);
         }
@@ -211,9 +213,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Tells a group of which a rank has its own particles the times of kept states, for a list build.
     pub(super) fn tell_times(&mut self, number: usize) {
-        let group = &mut self.state.groups[number];
+        let state = &mut *self.state;
+        let group = &mut state.groups[number];
         if group.all.is_some() {
-            let times = self.state.kept_impulses.iter().map(|kept| kept.time);
+            let times = state.kept_impulses.iter().map(|kept| kept.time);
             group.kept_times.clear();
             group.kept_times.extend(times);
         }

@@ -61,13 +61,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Adds what loads give a group at `time` \[s\] to the rates of an evaluation.
     pub(super) fn apply_loads(&mut self, group: usize, time: f64) -> Result<()> {
         let built = self.built.get(group).map_or(&[][..], Vec::as_slice);
-        let group = &mut self.state.groups[group];
+        let state = &mut *self.state;
+        let group = &mut state.groups[group];
         let particles = &mut group.particles;
         let Some(Wrong { load, value, slot }) = apply_loads(
             particles,
             &mut group.work.rates,
             &self.loads,
-            (time, &self.state.happened, built),
+            (time, &state.happened, built),
         ) else {
             return Ok(());
         };

@@ -182,6 +182,7 @@ mod outflow;
 mod outlook;
 mod own_counts;
 mod own_group;
+mod own_parts;
 mod own_work;
 mod pair_list;
 mod part;
@@ -190,6 +191,7 @@ mod pieces;
 mod population;
 mod query;
 mod rank_model;
+mod readable;
 mod reference;
 mod rigid;
 mod rigid_body;
@@ -269,6 +271,7 @@ use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
 use crate::scene::Described;
 use impulses::PairForces;
+use readable::Readable;
 use run_state::State;
 use std::sync::Arc;
 use view::Reading;
@@ -305,7 +308,7 @@ pub(crate) type UniformLoad<const D: usize> = Arc<dyn Fn(f64) -> [f64; D] + Send
 #[derive(Clone)]
 pub struct Simulation<T: Real, const D: usize> {
     /// What steps change.
-    state: State<T, D>,
+    state: Readable<T, D>,
     /// The box around bodies and walls as built \[m\], where walls alone bound the scene.
     pub(crate) domain: Option<[[f64; D]; 2]>,
     pub(crate) integrator: Arc<dyn Integrator>,
@@ -373,7 +376,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             groups[group].is_met = true;
         }
         Self {
-            state: State::new(groups, couples),
+            state: Readable::new(State::new(groups, couples)),
             domain,
             integrator,
             control,
@@ -407,7 +410,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// After [`run_until`](Self::run_until) this is the requested end.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.state.time
+        self.state.own().time
     }
 
     /// The body that a particle belongs to, and its number there.
@@ -439,7 +442,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 own.aside = Some(Box::new(own.keep()));
             }
             let evaluated = own.evaluate_together();
-            let voted = evaluated.and_then(|()| own.vote().map(|_| ()));
+            let voted = evaluated.and_then(|()| own.found(Simulation::vote).map(|_| ()));
             own.agree(voted)
         })
     }

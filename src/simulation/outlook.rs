@@ -99,7 +99,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             own.state.watch = None;
             let events = core::mem::take(&mut own.events);
             let rehearsed = own.rehearse(end, bytes);
-            own.state = kept;
+            *own.state = kept;
             (own.events, own.failed) = (events, None);
             rehearsed
         })

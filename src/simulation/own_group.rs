@@ -12,7 +12,7 @@ use super::workspace::{Saved, Workspace};
 use crate::material::eos::GuardCounts;
 use crate::neighbors::ClusterLists;
 use crate::particles::{Columns, Field};
-use crate::ranks::What;
+use crate::ranks::{Asked, Source, What};
 use crate::scalar::Real;
 use crate::sweep::{Pass, Records, Results};
 use crate::term::Stage;
@@ -24,7 +24,8 @@ use std::sync::{Arc, OnceLock};
 #[derive(Clone, Debug)]
 pub(crate) struct All<T: Real, const D: usize> {
     pub part: Arc<Part>,
-    pub particles: Particles<T, D>,
+    /// Shared by a state and its copies.
+    pub particles: Arc<Particles<T, D>>,
     neighborhood: Neighborhood<T, D>,
     walls: Vec<WallState<T, D>>,
     pub guards: GuardCounts,
@@ -56,7 +57,13 @@ pub(super) enum Lists {
 impl<T: Real, const D: usize> Own<T, D> {
     /// Numbers of all particles, `width` a slot and so many, in the memory of those that this rank has, which grows where it must. Others
     /// stay as they were `before`, or zero, where a rank has failed.
-    fn gather(&self, mut own: Vec<T>, (width, count): (usize, usize), before: &[T]) -> Vec<T> {
+    fn gather(
+        &self,
+        source: Source<'_>,
+        mut own: Vec<T>,
+        (width, count): (usize, usize),
+        before: &[T],
+    ) -> Vec<T> {
         let (mut end, mut behind) = (width * self.part.count(), count);
         own.truncate(end);
         own.reserve_exact(count - end);
@@ -75,8 +82,7 @@ impl<T: Real, const D: usize> Own<T, D> {
         fill(&mut own, 0..behind);
         let numbers = |run: &Range<usize>| width * run.start..width * run.end;
         let runs_of = |rank: usize| self.runs[rank].each_ref().map(numbers);
-        let team = &self.share.team;
-        team.gather_numbers(What::State, &mut own, runs_of, Vec::new(), |_, _| Some(()));
+        source.numbers(&mut own, runs_of, Vec::new(), |_, _| Some(()));
         own
     }
 
@@ -120,7 +126,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.work = work;
         self.all = Some(Box::new(All {
             part,
-            particles: core::mem::replace(&mut self.particles, own),
+            particles: Arc::new(core::mem::replace(&mut self.particles, own)),
             neighborhood: core::mem::replace(&mut self.neighborhood, neighborhood),
             walls: core::mem::replace(&mut self.walls, walls),
             guards: take(&mut self.guards),
@@ -131,7 +137,6 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// Goes on with room for all particles. What was of this rank alone.
     fn open(&mut self) -> Option<Own<T, D>> {
-        self.join_counts();
         let (all, share) = (self.all.take()?, self.share.clone()?);
         let All {
             part,
@@ -142,6 +147,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited,
             pairs: _,
         } = *all;
+        let particles = Arc::unwrap_or_clone(particles);
         let own = core::mem::replace(&mut self.particles, particles);
         let near = core::mem::replace(&mut self.neighborhood, neighborhood);
         let mut work = take(&mut self.work);
@@ -163,7 +169,12 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Gets columns of all particles.
-    fn gather_columns(&mut self, own: &mut Own<T, D>, fields: impl Iterator<Item = Field>) {
+    fn gather_columns(
+        &mut self,
+        source: Source<'_>,
+        own: &mut Own<T, D>,
+        fields: impl Iterator<Item = Field>,
+    ) {
         let slots = self.particles.columns.slots();
         for field in fields {
             let width = field.components(D);
@@ -174,7 +185,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             } else {
                 &[]
             };
-            let all = own.gather(here, (width, width * slots), before);
+            let all = own.gather(source, here, (width, width * slots), before);
             *self.particles.columns.column_mut(field) = all;
         }
     }
@@ -182,10 +193,13 @@ impl<T: Real, const D: usize> Group<T, D> {
     /// Goes on with places and smoothing lengths of all particles, from which lists are built. All else, of which ranks send to others
     /// what is theirs after that.
     pub(super) fn leave(&mut self) -> Option<Leaving<T, D>> {
+        self.join_counts();
         let mut own = self.open()?;
         let fields = self.particles.columns.fields();
         let places = [Field::POSITION, Field::SMOOTHING_LENGTH].into_iter();
-        self.gather_columns(&mut own, places.filter(|field| fields.contains(*field)));
+        let places = places.filter(|field| fields.contains(*field));
+        let team = own.share.team.clone();
+        self.gather_columns(Source::All(&team, What::State), &mut own, places);
         own.forget_records();
         Some(Leaving {
             division: own.share.division().clone(),
@@ -194,14 +208,20 @@ impl<T: Real, const D: usize> Group<T, D> {
         })
     }
 
-    /// Goes on with all particles, which all ranks give each other at once, column by column.
-    pub(super) fn bring_together(&mut self, lists: Lists) {
-        if self.all.is_none() {
+    /// Goes on with all particles, column by column: all ranks give them each other at once, or this one asks for those that are offered.
+    pub(super) fn bring_together(&mut self, lists: Lists, offer: Option<&Asked<'_>>) {
+        let Some(share) = self.share.as_ref().filter(|_| self.all.is_some()) else {
             return;
-        }
+        };
+        let team = share.team.clone();
+        let source = offer.map_or(Source::All(&team, What::State), Source::Offer);
         let for_lists = lists == Lists::BuiltNext;
         if lists == Lists::Elsewhere {
             self.neighborhood.lists = Arc::default();
+        }
+        if offer.is_none() {
+            // What is offered has been joined before.
+            self.join_counts();
         }
         let Some(mut own) = self.open() else {
             return;
@@ -210,16 +230,16 @@ impl<T: Real, const D: usize> Group<T, D> {
             own.forget_records();
         }
         let fields = self.particles.columns.fields();
-        self.gather_columns(&mut own, fields.iter());
+        self.gather_columns(source, &mut own, fields.iter());
         let slots = self.particles.columns.slots();
         self.work.expect_saved(&own.work, &self.particles, slots);
         let mut work = take(&mut own.work);
         for ((_, here), (field, all)) in work.saved_mut().zip(self.work.saved_mut()) {
             if !all.is_empty() {
-                *all = own.gather(take(here), (field.components(D), all.len()), &[]);
+                *all = own.gather(source, take(here), (field.components(D), all.len()), &[]);
             }
         }
-        let (team, division) = (own.share.team.clone(), own.share.division());
+        let division = own.share.division();
         let chunks: Vec<_> = (0..team.count()).map(|rank| division.of(rank)).collect();
         let mobile = self.particles.mobile;
         let count = self.neighborhood.lists.chunks().len();
@@ -230,7 +250,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             *all = Results::among(sums, here, (&own.part.chunks, count));
             let rows = |runs: &[Range<usize>; 2]| [all.rows_of(&moving(runs)), 0..0];
             let rows: Vec<_> = own.runs.iter().map(rows).collect();
-            all.gather((&team, What::State), &rows, &chunks);
+            all.gather(source, &rows, &chunks);
         }
         if !for_lists {
             let count = slots + self.neighborhood.images.len();
@@ -239,7 +259,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             for ((here, all), is_there) in all.zip(are_there) {
                 let stride = here.stride();
                 if is_there && stride > 0 {
-                    let own = own.gather(take(here).into_data(), (stride, stride * count), &[]);
+                    let (here, all_of_them) = (take(here).into_data(), (stride, stride * count));
+                    let own = own.gather(source, here, all_of_them, &[]);
                     *all = Records::of_stored(own, stride);
                 }
             }
@@ -333,6 +354,8 @@ impl Part {
         for (number, own) in self.named(slots).enumerate() {
             numbers[own] = number as u32;
         }
+        let mut listed = Vec::with_capacity(self.count() + self.ghosts.len() + self.images.len());
+        listed.extend(self.named(slots).map(|other| all.listed[other]));
         let lists = Arc::make_mut(&mut all.lists);
         let lists = lists.take_runs(&self.chunks, |j| numbers[j as usize]);
         let listed_h = if all.listed_h.is_empty() {
@@ -352,7 +375,7 @@ impl Part {
             chains: all.chains.clone(),
             lists: Arc::new(lists),
             whole: OnceLock::new(),
-            listed: Arc::new(self.named(slots).map(|other| all.listed[other]).collect()),
+            listed: Arc::new(listed),
             listed_h,
             ..*all
         }
@@ -428,6 +451,12 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         let is_predicted = self.is_predicted;
         let predicted = self.predicted.iter_mut().filter(move |_| is_predicted);
         self.kept.iter_mut().flatten().chain(predicted)
+    }
+
+    /// The same to look at.
+    pub(super) fn saved(&self) -> impl Iterator<Item = &(Field, Vec<T>)> {
+        let predicted = self.predicted.iter().filter(|_| self.is_predicted);
+        self.kept.iter().flatten().chain(predicted)
     }
 
     /// Sums that the next step reads.

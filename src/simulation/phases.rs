@@ -84,6 +84,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     #[must_use]
     pub fn phases(&self) -> Phases {
         self.state
+            .own()
             .groups
             .iter()
             .fold(Phases::default(), |sum, group| sum.and(&group.work.phases))

@@ -145,11 +145,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Number of particles.
     #[must_use]
     pub fn particles(&self) -> usize {
-        self.state
-            .groups
-            .iter()
-            .map(|group| group.particles.count())
-            .sum()
+        let all = |own: &Group<T, D>| match &own.all {
+            Some(all) => all.particles.count(),
+            None => own.particles.count(),
+        };
+        self.state.own().groups.iter().map(all).sum()
     }
 
     /// Every body with its group, in the order of the scene.
@@ -466,7 +466,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// is shown, or one that was [evaluated](Self::evaluate) between them, there are twice as many but for the lists.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.state.groups.iter().map(Group::bytes).sum()
+        self.state.own().groups.iter().map(Group::bytes).sum()
     }
 
     /// The scheme of the bodies: that of the scene itself, whose first group they are.

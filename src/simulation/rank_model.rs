@@ -118,7 +118,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 group.share = Some(share);
             }
             let model = own.rehearse_alone(&team, (bytes, builds.min(1.0)));
-            own.state = kept;
+            *own.state = kept;
             (own.team, own.events, own.failed) = (others, events, None);
             own.steps_parts = before;
             model

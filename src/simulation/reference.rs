@@ -8,6 +8,7 @@ use crate::collective::largest;
 use crate::particles::{Field, Output};
 use crate::scalar::Real;
 use crate::scheme::DensityForm;
+use crate::sweep::Results;
 use crate::term::Stage;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -69,6 +70,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.particles.columns.raw_mut(Field::GRAD_H).fill(T::one());
         }
         self.run_stage(Stage::Reference, Moment::at(0.0));
+        // Whoever reads sums later has summed them anew.
+        self.work.sums = Results::default();
     }
 
     /// Kernel sum across each contact from which on it is active: what a particle lacks to a full

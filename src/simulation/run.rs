@@ -52,8 +52,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(super) fn next_step(&mut self) -> Result<Vote> {
         self.check_failure()?;
         let (start, before) = (crate::clock::Instant::now(), self.phases());
+        let time = self.state.time;
         for k in 0..self.state.groups.len() {
-            let entered = self.state.groups[k].emit(self.state.time);
+            let entered = self.state.groups[k].emit(time);
             if self.keep_failure(entered)? {
                 self.state.rates_at_hand = false;
             }
@@ -230,7 +231,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     fn go_to(&mut self, end: f64) -> Result<f64> {
         check_end(end)?;
-        let (shown, rounding) = (self.state.time, rounding(end));
+        let (shown, rounding) = (self.time(), rounding(end));
         if end - shown <= rounding {
             return Ok(0.0);
         }
@@ -271,7 +272,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         self.check_failure()?;
         let mut outcome = self.begin_parts();
-        while outcome.is_ok() && end - self.state.time > rounding(end) {
+        while outcome.is_ok() && end - self.time() > rounding(end) {
             outcome = self.step_until(end).map(|_| ());
         }
         self.end_parts();

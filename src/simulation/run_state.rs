@@ -7,7 +7,6 @@ use super::group::Group;
 use super::impulses::Impulses;
 use super::joints::Joints;
 use super::{Simulation, Vote, energy, stability, stored};
-use crate::particles::{Columns, Fields};
 use crate::scalar::Real;
 use core::mem::replace;
 
@@ -109,23 +108,18 @@ impl<T: Real, const D: usize> State<T, D> {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Keeps the state, of which a copy takes the place. Where ranks have their own particles alone, its columns have room for all: to
-    /// grow later would leave holes in memory.
+    /// Keeps the state, of which a copy takes the place.
     pub(super) fn keep(&mut self) -> State<T, D> {
-        let mut columns = Vec::with_capacity(self.state.groups.len());
+        self.forget_taken_back();
+        let copy = State::clone(&self.state);
+        replace(&mut *self.state, copy)
+    }
+
+    /// Frees what the prediction of the last step has taken back.
+    pub(super) fn forget_taken_back(&mut self) {
         for group in &mut self.state.groups {
             group.work.forget_taken_back();
-            let none = Columns::new(Fields::NONE, 0);
-            columns.push(replace(&mut group.particles.columns, none));
         }
-        let mut copy = self.state.clone();
-        let groups = self.state.groups.iter_mut().zip(&mut copy.groups);
-        for ((own, copy), columns) in groups.zip(columns) {
-            let slots = own.all.as_ref().map_or(columns.slots(), |all| all.slots());
-            copy.particles.columns = columns.with_room(slots);
-            own.particles.columns = columns;
-        }
-        replace(&mut self.state, copy)
     }
 
     /// Restores the saved state. The time that was spent meanwhile stays spent.
@@ -137,7 +131,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         if let (Some(before), Some(now)) = (&mut kept.watch, &self.state.watch) {
             before.spent = now.spent;
         }
-        self.state = kept;
+        *self.state = kept;
     }
 }
 

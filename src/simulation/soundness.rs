@@ -2,6 +2,7 @@
 //! Looked at after every step, the last of a run included.
 
 use super::Simulation;
+use super::group::Group;
 use super::limits::are_finite;
 use super::population::Particles;
 use crate::boundary::{Motion, Pose};
@@ -96,11 +97,12 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Surfaces at which a summed density puts a solid or liquid under tension: one for each body.
     pub(crate) fn surfaces_in_tension(&self) -> Vec<Problem> {
-        let summed = self
-            .state
-            .groups
-            .iter()
-            .filter(|group| matches!(group.scheme.smoothing, Smoothing::Consistent(_)));
+        let is_summed =
+            |group: &Group<T, D>| matches!(group.scheme.smoothing, Smoothing::Consistent(_));
+        if !self.state.own().groups.iter().any(is_summed) {
+            return Vec::new();
+        }
+        let summed = self.state.groups.iter().filter(|group| is_summed(group));
         summed
             .flat_map(|group| surfaces_in_tension(&group.particles))
             .collect()

@@ -2,6 +2,8 @@
 //! Counts of work are those of the run, which the shown state has no part in.
 
 use super::Simulation;
+#[cfg(feature = "checkpoint")]
+use super::own_group::Lists;
 use super::run_state::State;
 use super::vote::Vote;
 use crate::clock::Instant;
@@ -32,7 +34,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// Shows the state at `time` \[s\], which is before the end of the next step.
     pub(super) fn show(&mut self, time: f64, next: Vote) -> Result<()> {
         let (start, before) = (Instant::now(), self.phases());
-        // Of what steps go on from ranks that step by parts keep their own, and of what is shown all have all.
         if self.team.as_ref().is_some_and(|team| team.count() > 1) {
             self.keep_own();
             self.join_counts();
@@ -42,9 +43,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let last = self.keep();
         let stepped = self.advance(next, time - self.state.time);
         self.state.time = time;
-        if stepped.is_ok() {
-            self.state.bring_together(Some(&last));
-        }
+        self.forget_taken_back();
         self.book_step(start, before);
         if stepped.is_err() {
             self.put_back(last);
@@ -63,6 +62,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Goes back to the state after the last step, and to the rates that it has left.
     pub(super) fn return_to_last_step(&mut self) {
+        self.state.withdraw();
         self.take_up();
         match mem::replace(&mut self.shown, Reading::LastStep) {
             Reading::LastStep => {}
@@ -140,7 +140,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         mem::swap(&mut self.shown, &mut shown);
         let mut exchange = |own: &mut Self| {
             if let Some(aside) = &mut aside {
-                mem::swap(&mut own.state, aside);
+                mem::swap(&mut *own.state, aside);
             }
         };
         exchange(self);
@@ -157,16 +157,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         match shown {
             Reading::LastStep => {}
             Reading::Rounded(time) => mem::swap(&mut self.state.time, time),
-            Reading::Between(last) => mem::swap(&mut self.state, last),
+            Reading::Between(last) => mem::swap(&mut *self.state, last),
         }
     }
 
     /// Acts on the state after the last step, and on what is shown where that is another.
     pub(super) fn on_both(&mut self, act: &dyn Fn(&mut Self)) {
         if let Some(mut aside) = self.aside.take() {
-            mem::swap(&mut self.state, &mut aside);
+            mem::swap(&mut *self.state, &mut aside);
             self.on_both(act);
-            mem::swap(&mut self.state, &mut aside);
+            mem::swap(&mut *self.state, &mut aside);
             self.aside = Some(aside);
         } else if self.last_step().is_some() {
             self.on_last_step(|own| act(own));
@@ -184,7 +184,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// The state after the last step, which has counted what it took.
     pub(super) fn after_step(&self) -> &State<T, D> {
-        self.last_step().unwrap_or(&self.state)
+        self.last_step().unwrap_or(self.state.own())
     }
 
     /// The same of all particles: where each rank has kept its own, all make a copy at once.
@@ -195,7 +195,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return Cow::Borrowed(last);
         }
         let mut all = last.clone();
-        all.bring_together(Some(last));
+        all.bring_together(Lists::Elsewhere, None);
         Cow::Owned(all)
     }
 

@@ -4,7 +4,7 @@
 use super::results::{Reaction, Results};
 use crate::neighbors::CHUNK;
 use crate::particles::Output;
-use crate::ranks::{Taken, Team, What, put_number, put_numbers};
+use crate::ranks::{Source, Taken, put_number, put_numbers};
 use crate::scalar::Real;
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ impl<T: Real, const D: usize> Results<T, D> {
     /// Gets the sums of all ranks where their numbers stand, and the forces on their chunks between blocks.
     pub(crate) fn gather(
         &mut self,
-        (team, what): (&Team, What),
+        source: Source<'_>,
         numbers: &[[Range<usize>; 2]],
         chunks: &[[Range<usize>; 2]],
     ) {
@@ -55,13 +55,13 @@ impl<T: Real, const D: usize> Results<T, D> {
         }
         let of_rank = |rank: usize| chunks[rank].clone().into_iter().flatten();
         let mut added = Vec::new();
-        for chunk in of_rank(team.rank()) {
+        for chunk in of_rank(source.team().rank()) {
             if let Some(own) = forces.get(chunk) {
                 put_reactions(own, &mut added);
             }
         }
         let runs_of = |rank: usize| numbers[rank].clone();
-        team.gather_numbers(what, &mut self.data, runs_of, added, |rank, from| {
+        source.numbers(&mut self.data, runs_of, added, |rank, from| {
             for chunk in of_rank(rank) {
                 if let Some(own) = forces.get_mut(chunk) {
                     own.clear();
@@ -101,6 +101,16 @@ impl<T: Real, const D: usize> Results<T, D> {
             own.reactions.push(self.reactions().copied().collect());
         }
         own
+    }
+
+    /// Adds them to a message as others [gather](Self::gather) them, of a rank with so many chunks.
+    pub(crate) fn put(&self, chunks: usize, to: &mut Vec<u8>) {
+        put_numbers(&self.data, to);
+        if self.outputs.contains(Output::FORCE) {
+            for chunk in 0..chunks {
+                put_reactions(self.reactions.get(chunk).map_or(&[], Vec::as_slice), to);
+            }
+        }
     }
 
     /// The sums of the first slots, slot by slot.

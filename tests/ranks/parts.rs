@@ -279,7 +279,7 @@ fn walked(now: &Simulation<f64, 2>) -> String {
     format!("{nearest:e} {force:?} {indicators} {stability}")
 }
 
-/// Readings need no message: one rank may read alone, more than once, and the others go on without it.
+/// One rank may read alone, more than once, while the others go on.
 #[test]
 fn one_rank_reads_alone() {
     fn read_by(scene: Scene<f64, 2>, reads: impl Fn(usize) -> bool) -> (Option<String>, Vec<u64>) {
@@ -301,6 +301,42 @@ fn one_rank_reads_alone() {
         assert_eq!(all[1].0, words);
         assert!(all.iter().all(|own| own.1 == bits));
         assert_eq!([&all[0].0, &all[2].0], [&None, &None]);
+    });
+}
+
+/// While one rank reads a simulation alone, or a copy of it, the others may go on with another one, or end.
+#[test]
+fn one_rank_reads_one_simulation_of_two() {
+    fn read_by(scene: impl Fn() -> Scene<f64, 2>, reads: impl Fn(usize) -> bool) -> Vec<Vec<u64>> {
+        let [mut first, mut second] = [scene(), scene()].map(|own| own.build().expect("the scene"));
+        let reads = first.rank().is_none_or(|(rank, _)| reads(rank));
+        let mut seen = Vec::new();
+        let mut read = |now: &Simulation<f64, 2>| {
+            if reads {
+                seen.push(said(now));
+            }
+        };
+        first.run_until(0.0111).expect("a run");
+        second.run_until(0.0123).expect("a run");
+        read(&first);
+        second.run_until(0.02).expect("a run");
+        read(&first);
+        read(&second.clone());
+        first.set_velocities(|_, [u, v]| [0.99 * u, v]);
+        read(&second);
+        first.run_until(0.0203).expect("a run");
+        drop(second);
+        read(&first);
+        seen
+    }
+    watched(|| {
+        let plain = read_by(dam_break, |_| true);
+        let all = ranks::in_threads(3, 1, |ranks| {
+            read_by(|| dam_break().on_ranks(ranks.clone()), |rank| rank == 2)
+        });
+        let all = all.expect("threads");
+        assert!(all[2] == plain);
+        assert!(all[0].is_empty() && all[1].is_empty());
     });
 }
 
@@ -428,7 +464,7 @@ fn bytes_of_a_step_do_not_grow_with_the_length_of_a_channel() {
                 };
                 // Ranks find once between list builds what they need of each other.
                 steps(&mut simulation, 1.0);
-                // Two runs that differ in their length alone: what is brought together at their ends is the same.
+                // Two runs that differ in their length alone: what is agreed on at their ends is the same.
                 let short = steps(&mut simulation, 2.0);
                 let long = steps(&mut simulation, 6.0);
                 (long.1 as f64 - short.1 as f64) / (long.0 - short.0) as f64

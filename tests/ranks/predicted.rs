@@ -53,13 +53,9 @@ fn as_predicted<T: Real, const D: usize>(
             let mean = |k: usize| all.iter().map(|own| own[k]).sum::<f64>() / count as f64;
             let [taken, builds] = [mean(0), mean(1)];
             assert_eq!(taken as usize, steps, "{name}");
-            // How often lists are built is the subject of another test; all particles come together at the end.
+            // How often lists are built is the subject of another test, and all come together once in so many steps.
             model.list_builds = builds / taken;
-            model.gathers_of_all = if own_alone {
-                model.gathers_of_all.max(1.0 / taken)
-            } else {
-                0.0
-            };
+            model.gathers_of_all = (model.gathers_of_all * taken).floor() / taken;
             let cost = model.on(count, &Network::default()).expect("a cost");
             let pairs = [
                 ("gatherings", cost.gathered, mean(2), GATHERINGS),

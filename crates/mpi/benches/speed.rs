@@ -44,22 +44,33 @@ fn scene(count: f64) -> Scene<f64, 3> {
         .acceleration(|_| [0.0, 0.0, -9.81])
 }
 
-/// Times steps, and prints seconds a step, bytes that the first rank got a step, and the bits of all.
+/// The most memory that all processes have held together \[MB\]; none where the system does not say.
+fn most_memory(world: &World) -> Result<f64, Box<dyn Error>> {
+    let said = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = said.lines().find_map(|own| own.strip_prefix("VmHWM:"));
+    let own = line.and_then(|own| own.split_whitespace().next()?.parse::<u64>().ok());
+    let (ranks, own) = (world.ranks(), own.unwrap_or(0).to_ne_bytes());
+    let mut all = vec![[0; 8]; ranks.count()];
+    let counts = vec![own.len(); ranks.count()];
+    let gathered = ranks.gather(&own, &counts, all.as_flattened_mut());
+    gathered.map_err(|why| why.to_string())?;
+    Ok(all.into_iter().map(u64::from_ne_bytes).sum::<u64>() as f64 / 1e3)
+}
+
+/// Times steps, and prints seconds a step, bytes that the first rank got a step, memory before anything is read, and the bits of all.
 fn timed(count: &str) -> Result<(), Box<dyn Error>> {
     let world = World::init()?;
     let scene = scene(count.parse()?).on_ranks(world.ranks());
     let mut simulation = scene.build()?;
-    // The first evaluation fills the lists.
-    let mut step = 0.0;
-    for _ in 0..3 {
-        step = simulation.step()?;
-    }
+    simulation.run_until(5e-4)?;
+    let step = simulation.last_vote().map_or(0.0, |own| own.step);
     let (steps, builds) = (simulation.steps(), simulation.list_builds());
     let before = simulation.traffic();
     let begun = Instant::now();
     simulation.run_until(simulation.time() + STEPS as f64 * step)?;
     let taken = begun.elapsed().as_secs_f64();
     let steps = (simulation.steps() - steps) as f64;
+    let memory = most_memory(&world)?;
     if !simulation.is_first_rank() {
         return Ok(());
     }
@@ -71,7 +82,7 @@ fn timed(count: &str) -> Result<(), Box<dyn Error>> {
             [(now.received - own.received) as f64 / steps, waited / steps]
         });
     println!(
-        "{} {steps} {} {got} {waited} {:016x}",
+        "{} {steps} {} {got} {waited} {memory} {:016x}",
         taken / steps,
         simulation.list_builds() - builds,
         simulation.bits_hash()
@@ -101,15 +112,16 @@ fn compare() -> Result<(), Box<dyn Error>> {
                 .output()?;
             let said = String::from_utf8_lossy(&run.stdout);
             let words: Vec<&str> = said.split_whitespace().collect();
-            let [step, steps, builds, got, waited, hash] = words[..] else {
+            let [step, steps, builds, got, waited, memory, hash] = words[..] else {
                 let why = String::from_utf8_lossy(&run.stderr);
                 return Err(format!("no times of {ranks} ranks: {said}{why}").into());
             };
             println!(
-                "{ranks} ranks: {:.4} s a step, {steps} steps, {builds} list builds; {:.0} kB and {:.4} s of messages and waiting a step",
+                "{ranks} ranks: {:.4} s a step, {steps} steps, {builds} list builds; {:.0} kB and {:.4} s of messages and waiting a step; {:.0} MB at most",
                 step.parse::<f64>()?,
                 got.parse::<f64>()? / 1e3,
                 waited.parse::<f64>()?,
+                memory.parse::<f64>()?,
             );
             own.push(step.parse::<f64>()?);
             if bits.get_or_insert(hash.to_owned()).as_str() != hash {

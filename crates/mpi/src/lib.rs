@@ -23,10 +23,14 @@
 //!
 //! To compile it takes a C compiler, `pkg-config` and an MPI: on Debian `apt-get install mpich libmpich-dev`.
 
+mod offers;
+
 use ferrompi::{Communicator, ThreadLevel};
 use meshfree::error::Failure;
-use meshfree::ranks::Ranks;
+use meshfree::ranks::{Offer, Ranks};
+use offers::Offers;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
 
 /// Why there is no MPI to run on.
@@ -65,6 +69,8 @@ impl World {
         let ranks = Arc::new(Processes {
             world: mpi.world(),
             most: MOST,
+            offers: Offers::default(),
+            has_ended: AtomicBool::new(false),
         });
         Ok(Self { mpi, ranks })
     }
@@ -87,6 +93,7 @@ impl core::fmt::Debug for World {
 
 impl Drop for World {
     fn drop(&mut self) {
+        self.ranks.has_ended.store(true, Ordering::Relaxed);
         if std::thread::panicking() {
             // The others may wait for this process, and MPI would wait for them.
             self.mpi.world().abort(1);
@@ -102,6 +109,9 @@ struct Processes {
     world: Communicator,
     /// Bytes of all that are gathered at once.
     most: usize,
+    offers: Offers,
+    /// Whether MPI has, after which nothing may be asked of it.
+    has_ended: AtomicBool,
 }
 
 impl core::fmt::Debug for Processes {
@@ -150,11 +160,7 @@ impl Ranks for Processes {
         all: &mut [u8],
         from: &[usize],
     ) -> Result<(), Failure> {
-        let (sent, sent_from) = lengths_and_begins(to)?;
-        let (got, got_from) = lengths_and_begins(from)?;
-        self.world
-            .alltoallv(own, &sent, &sent_from, all, &got, &got_from)?;
-        Ok(())
+        self.exchange_beside((own, to), (all, from), &mut || {})
     }
 
     fn exchange_beside(
@@ -163,15 +169,34 @@ impl Ranks for Processes {
         (all, from): (&mut [u8], &[usize]),
         meanwhile: &mut dyn FnMut(),
     ) -> Result<(), Failure> {
+        self.check()?;
         let (sent, sent_from) = lengths_and_begins(to)?;
         let (got, got_from) = lengths_and_begins(from)?;
         ferrompi::scope(|scope| {
             let world = &self.world;
             let come = world.ialltoallv(scope, own, &sent, &sent_from, all, &got, &got_from)?;
             meanwhile();
-            come.wait().map(|_| ())
+            if self.offers.stand() {
+                self.offers.wait(world, come)
+            } else {
+                come.wait().map(|_| ())
+            }
         })?;
         Ok(())
+    }
+
+    fn offer(&self, own: Offer) -> Option<u64> {
+        Some(self.offers.make(own))
+    }
+
+    fn withdraw(&self, number: u64) {
+        self.offers.withdraw(number);
+    }
+
+    fn ask(&self, rank: usize, number: u64, part: usize) -> Result<Vec<u8>, Failure> {
+        self.check()?;
+        let question = [number, part as u64];
+        self.offers.ask(&self.world, i32::try_from(rank)?, question)
     }
 }
 
@@ -188,17 +213,26 @@ fn lengths_and_begins(counts: &[usize]) -> Result<(Vec<i32>, Vec<i32>), Failure>
 }
 
 impl Processes {
+    fn check(&self) -> Result<(), Failure> {
+        if self.has_ended.load(Ordering::Relaxed) {
+            return Err(
+                "MPI has ended: keep the `World` until all simulations on it are dropped".into(),
+            );
+        }
+        Ok(())
+    }
+
     fn gather_at_once(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure> {
-        let lengths: Vec<i32> = counts.iter().map(|&count| count as i32).collect();
-        let mut end = 0;
-        let begins: Vec<i32> = lengths
-            .iter()
-            .map(|length| {
-                end += length;
-                end - length
-            })
-            .collect();
-        self.world.allgatherv(own, all, &lengths, &begins)?;
+        self.check()?;
+        let (lengths, begins) = lengths_and_begins(counts)?;
+        if !self.offers.stand() {
+            return Ok(self.world.allgatherv(own, all, &lengths, &begins)?);
+        }
+        ferrompi::scope(|scope| {
+            let world = &self.world;
+            let come = world.iallgatherv(scope, own, all, &lengths, &begins)?;
+            self.offers.wait(world, come)
+        })?;
         Ok(())
     }
 }
@@ -210,5 +244,7 @@ pub fn in_pieces(world: &World, most: usize) -> Arc<dyn Ranks> {
     Arc::new(Processes {
         world: world.mpi.world(),
         most,
+        offers: Offers::default(),
+        has_ended: AtomicBool::new(false),
     })
 }

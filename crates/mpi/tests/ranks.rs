@@ -17,7 +17,7 @@ type Outcome = Result<String, Box<dyn Error>>;
 type Test = fn(&World) -> Outcome;
 
 /// What is run on processes, by name.
-const TESTS: [(&str, Test); 6] = [
+const TESTS: [(&str, Test); 7] = [
     ("dam_break", |world| {
         Ok(format!(
             "{:016x}",
@@ -36,6 +36,7 @@ const TESTS: [(&str, Test); 6] = [
             run_in_parts(dam_break().on_ranks(world.ranks()), 300.0)?
         ))
     }),
+    ("one_reads_alone", |world| one_reads_alone(world.ranks())),
     ("restart", |world| restart(world.ranks())),
     ("error_of_one", |world| error_of_one(world.ranks())),
     ("long_messages", long_messages),
@@ -94,6 +95,23 @@ fn run_in_parts(scene: Scene<f64, 2>, steps: f64) -> Result<u64, Box<dyn Error>>
     assert!(simulation.list_builds() >= 5);
     assert!(simulation.traffic().is_none_or(|own| own.exchanged > 100));
     Ok(simulation.bits_hash())
+}
+
+/// The last rank reads alone on the way, while the others go on, and the first one at the end, while the others end.
+fn one_reads_alone(ranks: Arc<dyn Ranks>) -> Outcome {
+    let (rank, last) = (ranks.rank(), ranks.count() - 1);
+    let mut simulation = dam_break().on_ranks(ranks).build()?;
+    simulation.run_until(0.03)?;
+    if rank == last {
+        let mut plain = dam_break().build()?;
+        plain.run_until(0.03)?;
+        assert_eq!(simulation.bits_hash(), plain.bits_hash());
+    }
+    simulation.run_until(0.06)?;
+    if rank > 0 {
+        return Ok(String::new());
+    }
+    Ok(format!("{:016x}", simulation.bits_hash()))
 }
 
 /// A folder that all processes of a test know.
@@ -235,6 +253,11 @@ fn check(test: &str) -> Result<(), String> {
         "dam_break" => format!("{:016x}", moved(dam_break(), 300).map_err(error)?),
         "periodic_gas" => format!("{:016x}", moved(gas(), 20).map_err(error)?),
         "dam_in_parts" => format!("{:016x}", run_in_parts(dam_break(), 300.0).map_err(error)?),
+        "one_reads_alone" => {
+            let mut plain = dam_break().build().map_err(|why| why.to_string())?;
+            plain.run_until(0.06).map_err(|why| why.to_string())?;
+            format!("{:016x}", plain.bits_hash())
+        }
         "restart" => {
             on_processes(test, 3, true)?;
             format!(

@@ -364,10 +364,11 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         self.follow_clamps(false);
         if changes.has(Change::Motions) {
-            for group in &mut self.state.groups {
+            let state = &mut *self.state;
+            for group in &mut state.groups {
                 for k in 0..group.held.clamps.len() {
                     if !group.held.clamps[k].is_free {
-                        (group.held).take_hold(k, &mut group.particles, self.state.time);
+                        (group.held).take_hold(k, &mut group.particles, state.time);
                     }
                 }
             }

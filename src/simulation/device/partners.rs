@@ -77,7 +77,7 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
     /// Lists the pairs of a coupling anew at a time \[s\], for which the host must have the state of both groups; what a device is told
     /// then, with the groups.
     pub fn list_contact(&mut self, contact: usize, time: f64) -> Vec<(usize, Numbers)> {
-        let state = &mut self.simulation.state;
+        let state = &mut *self.simulation.state;
         state.couples[contact].list(&state.groups, time);
         let sides = 0..self.contacts[contact].sides.len();
         let of = |side: usize| {
@@ -189,9 +189,10 @@ impl<T: Real, const D: usize> Offloaded<T, D> {
         let mut rest = Vec::new();
         for [contact, side] in self.sides_in(group) {
             let (numbers, own) = (next(), &self.contacts[contact].sides[side]);
-            let particles = &self.simulation.state.groups[group].particles;
+            let state = &mut *self.simulation.state;
+            let particles = &state.groups[group].particles;
             let slots = particles.columns.slots();
-            let couple = &mut self.simulation.state.couples[contact];
+            let couple = &mut state.couples[contact];
             let body = particles.body_of(own.slots[0].start);
             let forces = &mut couple.acting.forces[side];
             forces.clear();

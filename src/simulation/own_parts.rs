@@ -1,0 +1,68 @@
+//! What a rank that has its own particles alone shows the others, part by part.
+//! In the order in which they ask for it, where they bring all particles together.
+
+use super::group::Group;
+use super::run_state::State;
+use crate::ranks::put_numbers;
+use crate::scalar::Real;
+use crate::sweep::Results;
+use std::ops::Range;
+
+/// What a rank has of all: numbers of its particles, or sums over so many chunks.
+enum OwnPart<'a, T: Real, const D: usize> {
+    Numbers(&'a [T]),
+    Sums(&'a Results<T, D>, usize),
+}
+
+impl<T: Real, const D: usize> OwnPart<'_, T, D> {
+    /// Adds it to a message.
+    fn put(&self, to: &mut Vec<u8>) {
+        match self {
+            Self::Numbers(own) => put_numbers(own, to),
+            Self::Sums(own, chunks) => own.put(*chunks, to),
+        }
+    }
+}
+
+impl<T: Real, const D: usize> State<T, D> {
+    /// A part of what this rank has, as [others](Self::bring_together) ask for it.
+    pub(super) fn part(&self, part: usize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut parts = self.groups.iter().flat_map(Group::own_parts);
+        if let Some(own) = parts.nth(part) {
+            own.put(&mut bytes);
+        }
+        bytes
+    }
+}
+
+impl<T: Real, const D: usize> Group<T, D> {
+    /// What this rank has in the order in which others [ask for it](Self::bring_together).
+    fn own_parts(&self) -> Vec<OwnPart<'_, T, D>> {
+        let Some(all) = &self.all else {
+            return Vec::new();
+        };
+        let (columns, work, count) = (&self.particles.columns, &self.work, all.part.count());
+        let mut parts = Vec::new();
+        for field in columns.fields().iter() {
+            let own = columns.raw(field);
+            parts.push(OwnPart::Numbers(&own[..field.components(D) * count]));
+        }
+        for (field, column) in work.saved().filter(|own| !own.1.is_empty()) {
+            parts.push(OwnPart::Numbers(&column[..field.components(D) * count]));
+        }
+        let chunks = all.part.chunks.iter().map(Range::len).sum();
+        parts.extend([&work.rates, &work.worked].map(|own| OwnPart::Sums(own, chunks)));
+        let records = [
+            (&work.records, work.records_of_rates),
+            (&work.work_records, true),
+        ];
+        for (own, _) in records
+            .into_iter()
+            .filter(|own| own.1 && own.0.stride() > 0)
+        {
+            parts.push(OwnPart::Numbers(&own.data()[..own.stride() * count]));
+        }
+        parts
+    }
+}
