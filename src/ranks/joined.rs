@@ -12,13 +12,13 @@ const PIECE: usize = 1 << 18;
 /// From where a rank gets numbers of the others.
 #[derive(Clone, Copy)]
 pub(crate) enum Source<'a> {
-    /// From all of them, at once, for what it is.
+    /// From a gathering of all ranks.
     All(&'a Team, What),
-    /// From what they offer, which they go on without.
+    /// From offers, for which the other ranks need not ask.
     Offer(&'a Asked<'a>),
 }
 
-/// Parts of an offer, one after another.
+/// Asks for the parts of an offer, one after another.
 pub(crate) struct Asked<'a> {
     team: &'a Team,
     number: u64,
@@ -41,7 +41,7 @@ impl Source<'_> {
         }
     }
 
-    /// Gets the numbers of each rank where its runs are among those of all, and behind them what each rank adds.
+    /// Gets the numbers of each rank into its runs of `all`. Each rank gives `added` with its numbers, and `take_added` reads that.
     pub fn numbers<T: Real>(
         &self,
         all: &mut [T],

@@ -20,14 +20,6 @@
 //! nor the threads of each, nor on how chunks are cut, nor on the form of a step. Any method that reads a simulation gives the same values
 //! on all of them.
 //!
-//! A rank may read alone: where a call has left each with its own particles, who reads asks the others for theirs, once until the next call,
-//! and they answer in whatever they call next, or where they drop the simulation. What all know already, as times, counts of
-//! steps and numbers of particles, needs no message.
-//!
-//! Lists are divided, and between list builds so is all else. A rank holds all particles where it builds the scene, in the other form
-//! of a step, and where it reads, but for the lists of others, which a reading that needs them makes. Where lists are built it holds the
-//! places of all, and with boundaries that turn what crosses them, as mirror planes, all of their columns.
-//!
 //! ```
 //! use meshfree::prelude::*;
 //! use meshfree::ranks;
@@ -51,6 +43,19 @@
 //! }
 //! # Ok::<(), Error>(())
 //! ```
+//!
+//! # Reading
+//!
+//! After [`run_until`](crate::simulation::Simulation::run_until) each rank has its own particles. The first method that reads particles asks the
+//! other ranks for theirs and saves them until the next call. One rank may read alone: the other ranks answer during their next call on any
+//! simulation of these ranks. A rank that drops its simulation first waits until the other ranks drop theirs or call a method that steps.
+//! Time, numbers of steps, particles and list builds are known on every rank without a message.
+//!
+//! # Memory
+//!
+//! Between list builds a rank has its own particles and their lists. It has all particles while it builds the scene, in the second form of
+//! a step, and after it has read. At list builds it has the places of all particles, and with boundaries that turn what crosses them,
+//! such as mirror planes, all of their columns.
 //!
 //! # Files
 //!
@@ -76,6 +81,7 @@ mod bytes;
 mod division;
 mod joined;
 mod model;
+mod offers;
 mod team;
 mod threads;
 mod traffic;
@@ -84,16 +90,13 @@ pub(crate) use bytes::{Taken, put_number, put_numbers, put_words};
 pub(crate) use division::{Division, even};
 pub(crate) use joined::{Asked, Source};
 pub use model::{Network, RankCost, RankCostLine, RankModel, RankParts, RankPrice};
+pub use offers::{Offer, Offers};
 pub(crate) use team::{Stamp, Team, What};
 pub use threads::in_threads;
 pub(crate) use traffic::Letters;
 pub use traffic::Traffic;
 
 use crate::error::Failure;
-use std::sync::Arc;
-
-/// What a rank shows others between calls: each part of it, by its number.
-pub type Offer = Arc<dyn Fn(usize) -> Vec<u8> + Send + Sync>;
 
 /// How a rank reaches the others.
 ///
@@ -143,23 +146,26 @@ pub trait Ranks: core::fmt::Debug + Send + Sync {
         Ok(())
     }
 
-    /// Shows the other ranks `own` on request, until it is withdrawn, while this rank is in any method of this trait, and returns the
-    /// number of the offer: how many this rank has made before. All ranks make one at once, which is no message. If it is not written,
-    /// all ranks get all where a call ends.
-    fn offer(&self, own: Offer) -> Option<u64> {
-        let _ = own;
+    /// Makes an offer: other ranks may [ask](Self::ask) for its parts until it is withdrawn. Returns its number, which
+    /// [`Offers`] gives. All ranks make their offers in the same order, without a message. While an offer stands, this rank answers in every
+    /// method of this trait.
+    ///
+    /// The default makes none. Ranks without offers gather all particles at the end of every call.
+    fn offer(&self, offer: Offer) -> Option<u64> {
+        let _ = offer;
         None
     }
 
-    /// Shows it no more. All ranks have gathered since they made the offer, so none asks for it now.
+    /// Withdraws the offer with a number. All ranks have gathered since it was made, so no rank asks for it any more, unless a rank has ended:
+    /// then its offers stand until all others have withdrawn theirs.
     fn withdraw(&self, number: u64) {
         let _ = number;
     }
 
-    /// A part of what another rank offers under this number, or is about to. One rank may ask while others do something else.
+    /// Asks a rank for a part of the offer with a number, and waits until the rank makes that offer. The other ranks need not ask.
     ///
     /// # Errors
-    /// If the rank cannot be reached any more, or has withdrawn it.
+    /// If the rank cannot be reached any more, or if the offer is withdrawn.
     fn ask(&self, rank: usize, number: u64, part: usize) -> Result<Vec<u8>, Failure> {
         let _ = (rank, number, part);
         Err("these ranks make no offers".into())

@@ -27,8 +27,8 @@ pub(crate) enum What {
     State,
     /// Particles near those of another rank.
     Ghosts,
-    /// The end of what ranks show each other.
-    Shown,
+    /// The end of an offer.
+    Offer,
 }
 
 impl What {
@@ -318,21 +318,21 @@ impl Team {
         false
     }
 
-    /// Shows the others `own` from now on, under a number of which all ranks have the same.
-    pub fn offer(&self, own: Offer) -> Option<u64> {
-        self.ranks.offer(own)
+    /// Makes an offer, and returns its number, which is the same on all ranks; none if these ranks make none.
+    pub fn offer(&self, offer: Offer) -> Option<u64> {
+        self.ranks.offer(offer)
     }
 
-    /// Waits until no rank asks for it any more.
+    /// Withdraws an offer once all ranks do so; until then others may ask for it.
     pub fn withdraw(&self, number: u64) {
-        // Who panics has no time, and tells the others otherwise.
+        // The end of a rank that panics reaches the others by other means.
         if !std::thread::panicking() {
-            self.gather(What::Shown, |_| {}, |_, _| Some(()));
+            self.gather(What::Offer, |_| {}, |_, _| Some(()));
         }
         self.ranks.withdraw(number);
     }
 
-    /// Shows what each other rank has of a part of what all offer.
+    /// Asks each other rank for a part of its offer, and gives it to `take`.
     pub fn ask(
         &self,
         number: u64,
@@ -350,7 +350,7 @@ impl Team {
                 let mut from = Taken(&own);
                 take(rank, &mut from)
                     .filter(|()| from.0.is_empty())
-                    .ok_or_else(|| broken(rank, "what it shows is not that of the same scene"))
+                    .ok_or_else(|| broken(rank, "its offer is not that of the same scene"))
             });
             if let Err(own) = taken {
                 *self.broken() = Some(own);

@@ -1,7 +1,7 @@
 //! Ranks as threads of one process: each has a pool of threads of its own, and they meet in memory.
 //! So that what runs on a cluster is tested on one machine, without MPI.
 
-use super::{Offer, Ranks};
+use super::{Offer, Offers, Ranks};
 use crate::error::{Error, Failure, Problem};
 use crate::parallel::Pool;
 use std::panic::resume_unwind;
@@ -92,19 +92,8 @@ struct Meeting {
     gone: Option<usize>,
     /// What each rank offers.
     offers: Vec<Offers>,
-}
-
-/// Offers of a rank: how many it has made, and those that stand.
-#[derive(Clone, Default)]
-struct Offers {
-    made: u64,
-    standing: Vec<(u64, Offer)>,
-}
-
-impl core::fmt::Debug for Offers {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{} of {} offers", self.standing.len(), self.made)
-    }
+    /// Ranks that have withdrawn an offer after a rank had ended, and the number of the offer.
+    withdrawn: Vec<(usize, u64)>,
 }
 
 impl Hall {
@@ -212,29 +201,44 @@ impl Ranks for Thread {
         self.hall.meet()
     }
 
-    fn offer(&self, own: Offer) -> Option<u64> {
-        let mut meeting = self.hall.meeting();
-        let offers = &mut meeting.offers[self.rank];
-        let number = offers.made;
-        offers.standing.push((number, own));
-        offers.made += 1;
+    fn offer(&self, offer: Offer) -> Option<u64> {
+        let number = self.hall.meeting().offers[self.rank].make(offer);
         self.hall.met.notify_all();
         Some(number)
     }
 
     fn withdraw(&self, number: u64) {
-        let offers = &mut self.hall.meeting().offers[self.rank];
-        offers.standing.retain(|own| own.0 != number);
+        let mut meeting = self.hall.meeting();
+        let Meeting {
+            gone,
+            offers,
+            withdrawn,
+            ..
+        } = &mut *meeting;
+        if gone.is_none() {
+            return offers[self.rank].withdraw(number);
+        }
+        // Simulations that ranks have returned are read and dropped one after another.
+        withdrawn.push((self.rank, number));
+        let is_withdrawn = |(rank, offers): (usize, &Offers)| {
+            offers.find(number).is_none() || withdrawn.contains(&(rank, number))
+        };
+        if offers.iter().enumerate().all(is_withdrawn) {
+            for offers in offers {
+                offers.withdraw(number);
+            }
+            withdrawn.retain(|own| own.1 != number);
+        }
     }
 
     fn ask(&self, rank: usize, number: u64, part: usize) -> Result<Vec<u8>, Failure> {
         let mut meeting = self.hall.meeting();
         let offer = loop {
             let offers = &meeting.offers[rank];
-            if let Some((_, own)) = offers.standing.iter().find(|own| own.0 == number) {
-                break own.clone();
+            if let Some(offer) = offers.find(number) {
+                break offer.clone();
             }
-            if number < offers.made {
+            if offers.was_made(number) {
                 return Err(format!("rank {rank} has withdrawn what it has offered").into());
             }
             meeting = self.hall.wait(meeting)?;

@@ -29,15 +29,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         Ok(())
     }
 
-    /// Evaluates all rates of a scene that was built, on ranks that have their own particles alone where it allows that, and returns
-    /// what a fixed step is compared with.
+    /// Evaluates all rates when a scene is built, by parts where the scene allows it. Returns the largest fixed step.
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate).
     pub(crate) fn evaluate_by_parts(&mut self) -> Result<Vote> {
         self.begin_parts()?;
         for group in 0..self.state.groups.len() {
-            // Lists were built for the reference.
+            // The reference has built lists and sorted particles.
             self.follow_moves(group);
         }
         self.keep_own();
@@ -53,7 +52,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         self.show_all();
     }
 
-    /// Lets readings see all particles, also where ranks go on to have their own alone.
+    /// Offers the particles of each rank, so that methods can read all of them.
     pub(crate) fn show_all(&mut self) {
         if let Some(team) = self.team.clone().filter(|_| self.is_parted()) {
             self.join_counts();
@@ -61,7 +60,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
     }
 
-    /// Whether ranks have their own particles alone, which are not shown.
+    /// Whether the state has the particles of this rank only.
     pub(super) fn is_parted(&self) -> bool {
         self.state.is_hidden()
     }
@@ -121,7 +120,7 @@ impl<T: Real, const D: usize> State<T, D> {
         self.groups.iter().any(|group| group.all.is_some())
     }
 
-    /// Brings all particles together again, or asks for those that are offered.
+    /// Gathers all particles, or asks for those of an offer.
     pub(super) fn bring_together(&mut self, lists: Lists, offer: Option<&Asked<'_>>) {
         once!(self => &mut State, |own, lists: Lists, offer: Option<&Asked<'_>>| -> () {
             for group in &mut own.groups {

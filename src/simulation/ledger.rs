@@ -188,6 +188,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Tells the kept states of a group what list builds did to its particles, and the ledger what boundaries gave.
     pub(super) fn follow_moves(&mut self, number: usize) {
+        let blocks = self.blocks();
         let state = &mut *self.state;
         let kept = &state.kept_impulses;
         let time_of = |slot: usize| kept.get(slot).map_or(0.0, |kept| kept.time);
@@ -195,8 +196,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut given = core::mem::take(&mut group.given);
         given.extend(group.work.follow(&mut group.particles.moved, time_of));
         let first_boundary = group.particles.bodies.len() + group.walls.len();
-        let blocks = self.blocks();
-        let state = &mut *self.state;
         for of_state in given.chunk_by(|a, b| a.0 == b.0) {
             let indices = &state.groups[number].indices;
             for (_, [body, boundary], impulse) in of_state {

@@ -208,7 +208,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         })
     }
 
-    /// Goes on with all particles, column by column: all ranks give them each other at once, or this one asks for those that are offered.
+    /// Gets all particles, column by column: all ranks gather them, or this rank asks for those of an `offer`.
     pub(super) fn bring_together(&mut self, lists: Lists, offer: Option<&Asked<'_>>) {
         let Some(share) = self.share.as_ref().filter(|_| self.all.is_some()) else {
             return;
@@ -220,7 +220,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.neighborhood.lists = Arc::default();
         }
         if offer.is_none() {
-            // What is offered has been joined before.
+            // Counts are joined before an offer is made.
             self.join_counts();
         }
         let Some(mut own) = self.open() else {
@@ -453,7 +453,7 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         self.kept.iter_mut().flatten().chain(predicted)
     }
 
-    /// The same to look at.
+    /// Columns of saved states that count, to read.
     pub(super) fn saved(&self) -> impl Iterator<Item = &(Field, Vec<T>)> {
         let predicted = self.predicted.iter().filter(|_| self.is_predicted);
         self.kept.iter().flatten().chain(predicted)

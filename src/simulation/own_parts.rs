@@ -1,5 +1,5 @@
-//! What a rank that has its own particles alone shows the others, part by part.
-//! In the order in which they ask for it, where they bring all particles together.
+//! The parts of the offer of a rank: its columns, saved states, sums and records.
+//! They have the order in which `bring_together` in `own_group` asks for them.
 
 use super::group::Group;
 use super::run_state::State;
@@ -8,7 +8,7 @@ use crate::scalar::Real;
 use crate::sweep::Results;
 use std::ops::Range;
 
-/// What a rank has of all: numbers of its particles, or sums over so many chunks.
+/// A part: numbers of particles, or sums over so many chunks.
 enum OwnPart<'a, T: Real, const D: usize> {
     Numbers(&'a [T]),
     Sums(&'a Results<T, D>, usize),
@@ -25,7 +25,7 @@ impl<T: Real, const D: usize> OwnPart<'_, T, D> {
 }
 
 impl<T: Real, const D: usize> State<T, D> {
-    /// A part of what this rank has, as [others](Self::bring_together) ask for it.
+    /// The bytes of a part; none behind the last part.
     pub(super) fn part(&self, part: usize) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut parts = self.groups.iter().flat_map(Group::own_parts);
@@ -37,7 +37,7 @@ impl<T: Real, const D: usize> State<T, D> {
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    /// What this rank has in the order in which others [ask for it](Self::bring_together).
+    /// All parts of this group; none if it has all particles.
     fn own_parts(&self) -> Vec<OwnPart<'_, T, D>> {
         let Some(all) = &self.all else {
             return Vec::new();

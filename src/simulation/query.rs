@@ -139,7 +139,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The place \[m\] in the scene from which columns of places count: see [place](crate::scene#place).
     #[must_use]
     pub fn origin(&self) -> [f64; D] {
-        self.state.groups[0].particles.origin
+        self.state.own().groups[0].particles.origin
     }
 
     /// Number of particles.
@@ -463,7 +463,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Bytes held for particles, lists and records of the run. While a state [between two steps](crate::simulation#readings)
-    /// is shown, or one that was [evaluated](Self::evaluate) between them, there are twice as many but for the lists.
+    /// is shown, or one that was [evaluated](Self::evaluate) between them, there are twice as many but for the lists. On
+    /// [ranks](crate::ranks) those of this rank, without what it has read from others.
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.state.own().groups.iter().map(Group::bytes).sum()
@@ -472,17 +473,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The scheme of the bodies: that of the scene itself, whose first group they are.
     #[must_use]
     pub fn scheme(&self) -> &Scheme<T, D> {
-        &self.state.groups[0].scheme
+        &self.state.own().groups[0].scheme
     }
 
     /// The schemes of all groups, that of the scene first.
     pub fn schemes(&self) -> impl Iterator<Item = &Scheme<T, D>> {
-        self.state.groups.iter().map(|group| &*group.scheme)
+        let groups = self.state.own().groups.iter();
+        groups.map(|group| &*group.scheme)
     }
 
     /// The instruction set that its pair loops run on.
     pub(crate) fn instructions(&self) -> InstructionSet {
-        self.state.groups[0].instructions.or_detected()
+        self.state.own().groups[0].instructions.or_detected()
     }
 
     /// The integrator's name.

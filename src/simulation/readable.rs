@@ -1,5 +1,5 @@
-//! The state of a run where it is read: between calls each rank may have its own particles alone, and shows them to the others.
-//! Who looks at the state finds all particles, and asks the other ranks for theirs where it must.
+//! The state of a run as methods read it. On ranks it may have the particles of this rank only, and offers them to the other ranks.
+//! A reference to it has all particles: it asks the other ranks for theirs. `own` has those of this rank.
 
 use super::own_group::Lists;
 use super::run_state::State;
@@ -9,16 +9,16 @@ use crate::scalar::Real;
 use std::ops::{Deref, DerefMut};
 use std::sync::{Arc, OnceLock};
 
-/// A state of which other ranks may be shown what this one has.
+/// A state that may be offered to other ranks.
 #[derive(Debug)]
 pub(super) struct Readable<T: Real, const D: usize> {
     own: Arc<State<T, D>>,
     offer: Option<Standing>,
-    /// That of all particles, once it was looked at.
+    /// The state of all particles, once it was read while the offer stands.
     all: OnceLock<Box<State<T, D>>>,
 }
 
-/// An offer of all ranks.
+/// An offer that all ranks have made.
 #[derive(Debug)]
 struct Standing {
     team: Arc<Team>,
@@ -26,7 +26,7 @@ struct Standing {
 }
 
 impl Standing {
-    /// A copy of what this rank has, with what the others show.
+    /// A copy of the state of this rank with the particles of all ranks.
     fn ask<T: Real, const D: usize>(&self, own: &State<T, D>, lists: Lists) -> State<T, D> {
         let mut all = own.clone();
         all.bring_together(lists, Some(&Asked::new(&self.team, self.number)));
@@ -43,17 +43,17 @@ impl<T: Real, const D: usize> Readable<T, D> {
         }
     }
 
-    /// What this rank has, which need not be all.
+    /// The state of this rank, which need not have all particles.
     pub fn own(&self) -> &State<T, D> {
         &self.own
     }
 
-    /// Whether this rank has its own particles alone, and does not show them.
+    /// Whether this rank has its own particles only, and does not offer them.
     pub fn is_hidden(&self) -> bool {
         self.offer.is_none() && self.own.is_parted()
     }
 
-    /// Shows the others what this rank has, all of which do so at once; where they cannot, all particles come together.
+    /// Offers the particles of this rank, as all ranks do at once. Ranks without offers gather all particles instead.
     pub fn offer(&mut self, team: &Arc<Team>) {
         if self.offer.is_some() || !self.own.is_parted() {
             return;
@@ -72,17 +72,15 @@ impl<T: Real, const D: usize> Readable<T, D> {
         }
     }
 
-    /// Goes on with what this rank has, which is shown no more; whether it was. All ranks do so at once.
-    pub fn withdraw(&mut self) -> bool {
+    /// Withdraws the offer, as all ranks do at once. The state has the particles of this rank then.
+    pub fn withdraw(&mut self) {
         self.all.take();
-        let Some(offer) = self.offer.take() else {
-            return false;
-        };
-        offer.team.withdraw(offer.number);
-        true
+        if let Some(offer) = self.offer.take() {
+            offer.team.withdraw(offer.number);
+        }
     }
 
-    /// Goes on with all particles, which all ranks give each other at once.
+    /// Gathers all particles, as all ranks do at once.
     pub fn bring_together(&mut self) {
         self.withdraw();
         if self.own.is_parted() {
@@ -100,14 +98,14 @@ impl<T: Real, const D: usize> Deref for Readable<T, D> {
         };
         self.all.get_or_init(|| {
             let mut all = None;
-            // Nothing goes on from it, so lists may stay where they are. Not by threads that may be asked for something that waits for it.
+            // No step starts from it, so it needs no lists. Other threads make it: this one would take up tasks that wait for it.
             apart(|| all = Some(offer.ask(&self.own, Lists::Elsewhere)));
             Box::new(all.expect("it was made"))
         })
     }
 }
 
-/// What is done to all particles.
+/// A change acts on all particles, which all ranks gather first.
 impl<T: Real, const D: usize> DerefMut for Readable<T, D> {
     fn deref_mut(&mut self) -> &mut State<T, D> {
         if self.offer.is_some() {
@@ -117,7 +115,7 @@ impl<T: Real, const D: usize> DerefMut for Readable<T, D> {
     }
 }
 
-/// A copy that no other rank is shown.
+/// The copy has all particles, and is not offered.
 impl<T: Real, const D: usize> Clone for Readable<T, D> {
     fn clone(&self) -> Self {
         Self::new(match &self.offer {
@@ -127,7 +125,7 @@ impl<T: Real, const D: usize> Clone for Readable<T, D> {
     }
 }
 
-/// The others may still ask for what it shows.
+/// Other ranks may ask until they drop theirs, too.
 impl<T: Real, const D: usize> Drop for Readable<T, D> {
     fn drop(&mut self) {
         self.withdraw();
@@ -142,6 +140,8 @@ mod tests {
 
     #[test]
     fn between_calls_a_rank_has_its_own_alone_until_it_reads() {
+        let folder = std::env::temp_dir().join(format!("meshfree-own-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
         let all = in_threads(3, 2, |ranks| {
             let (rank, open) = (ranks.rank(), [[true; 2], [true, false]]);
             let water = catalogue::weakly_compressible_water(4.0);
@@ -158,7 +158,12 @@ mod tests {
             // Counts and times are known to all.
             let known = (now.particles(), now.time(), now.steps(), now.list_builds());
             assert!(now.state.all.get().is_none() && now.traffic() == before);
-            // By all threads at once.
+            #[cfg(feature = "checkpoint")]
+            {
+                now.save(folder.join("file")).expect("a file");
+                assert!(now.state.all.get().is_none(), "each rank writes its rows");
+            }
+            // All threads read at once.
             let count = || over(0..64, |_| now.all().count() as u64) as usize / 64;
             let read = (rank == 1).then(count);
             assert_eq!(now.state.all.get().is_some(), rank == 1);
@@ -168,6 +173,7 @@ mod tests {
             (own, known, read, slots(&now.state))
         });
         let all = all.expect("threads");
+        let _ = std::fs::remove_dir_all(folder);
         let sum: usize = all.iter().map(|own| own.0).sum();
         for (rank, (own, known, read, slots)) in all.iter().enumerate() {
             assert!(2 * own < sum, "{own} of {sum}");

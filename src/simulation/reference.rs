@@ -70,7 +70,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             self.particles.columns.raw_mut(Field::GRAD_H).fill(T::one());
         }
         self.run_stage(Stage::Reference, Moment::at(0.0));
-        // Whoever reads sums later has summed them anew.
+        // Each later stage sums anew.
         self.work.sums = Results::default();
     }
 

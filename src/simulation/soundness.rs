@@ -99,6 +99,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub(crate) fn surfaces_in_tension(&self) -> Vec<Problem> {
         let is_summed =
             |group: &Group<T, D>| matches!(group.scheme.smoothing, Smoothing::Consistent(_));
+        // Other ranks need not be asked where no scheme sums its density.
         if !self.state.own().groups.iter().any(is_summed) {
             return Vec::new();
         }

@@ -10,6 +10,7 @@ mod long;
 mod parts;
 mod pieces;
 mod predicted;
+mod readers;
 #[cfg(feature = "checkpoint")]
 mod restart;
 mod scenes;

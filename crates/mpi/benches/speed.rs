@@ -44,7 +44,7 @@ fn scene(count: f64) -> Scene<f64, 3> {
         .acceleration(|_| [0.0, 0.0, -9.81])
 }
 
-/// The most memory that all processes have held together \[MB\]; none where the system does not say.
+/// The most memory that all processes have held together \[MB\]; zero where the system does not say.
 fn most_memory(world: &World) -> Result<f64, Box<dyn Error>> {
     let said = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = said.lines().find_map(|own| own.strip_prefix("VmHWM:"));
@@ -63,7 +63,7 @@ fn timed(count: &str) -> Result<(), Box<dyn Error>> {
     let scene = scene(count.parse()?).on_ranks(world.ranks());
     let mut simulation = scene.build()?;
     simulation.run_until(5e-4)?;
-    let step = simulation.last_vote().map_or(0.0, |own| own.step);
+    let step = simulation.last_vote().ok_or("no step was taken")?.step;
     let (steps, builds) = (simulation.steps(), simulation.list_builds());
     let before = simulation.traffic();
     let begun = Instant::now();

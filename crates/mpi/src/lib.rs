@@ -23,12 +23,12 @@
 //!
 //! To compile it takes a C compiler, `pkg-config` and an MPI: on Debian `apt-get install mpich libmpich-dev`.
 
-mod offers;
+mod post;
 
 use ferrompi::{Communicator, ThreadLevel};
 use meshfree::error::Failure;
 use meshfree::ranks::{Offer, Ranks};
-use offers::Offers;
+use post::PostOffice;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thiserror::Error;
@@ -69,7 +69,7 @@ impl World {
         let ranks = Arc::new(Processes {
             world: mpi.world(),
             most: MOST,
-            offers: Offers::default(),
+            post: PostOffice::default(),
             has_ended: AtomicBool::new(false),
         });
         Ok(Self { mpi, ranks })
@@ -109,8 +109,8 @@ struct Processes {
     world: Communicator,
     /// Bytes of all that are gathered at once.
     most: usize,
-    offers: Offers,
-    /// Whether MPI has, after which nothing may be asked of it.
+    post: PostOffice,
+    /// Whether MPI has ended, after which no call of it is allowed.
     has_ended: AtomicBool,
 }
 
@@ -176,8 +176,8 @@ impl Ranks for Processes {
             let world = &self.world;
             let come = world.ialltoallv(scope, own, &sent, &sent_from, all, &got, &got_from)?;
             meanwhile();
-            if self.offers.stand() {
-                self.offers.wait(world, come)
+            if self.post.has_offers() {
+                self.post.wait(world, come)
             } else {
                 come.wait().map(|_| ())
             }
@@ -185,18 +185,18 @@ impl Ranks for Processes {
         Ok(())
     }
 
-    fn offer(&self, own: Offer) -> Option<u64> {
-        Some(self.offers.make(own))
+    fn offer(&self, offer: Offer) -> Option<u64> {
+        Some(self.post.make(offer))
     }
 
     fn withdraw(&self, number: u64) {
-        self.offers.withdraw(number);
+        self.post.withdraw(number);
     }
 
     fn ask(&self, rank: usize, number: u64, part: usize) -> Result<Vec<u8>, Failure> {
         self.check()?;
         let question = [number, part as u64];
-        self.offers.ask(&self.world, i32::try_from(rank)?, question)
+        self.post.ask(&self.world, i32::try_from(rank)?, question)
     }
 }
 
@@ -213,6 +213,7 @@ fn lengths_and_begins(counts: &[usize]) -> Result<(Vec<i32>, Vec<i32>), Failure>
 }
 
 impl Processes {
+    /// Refuses calls after the end of MPI.
     fn check(&self) -> Result<(), Failure> {
         if self.has_ended.load(Ordering::Relaxed) {
             return Err(
@@ -225,13 +226,13 @@ impl Processes {
     fn gather_at_once(&self, own: &[u8], counts: &[usize], all: &mut [u8]) -> Result<(), Failure> {
         self.check()?;
         let (lengths, begins) = lengths_and_begins(counts)?;
-        if !self.offers.stand() {
+        if !self.post.has_offers() {
             return Ok(self.world.allgatherv(own, all, &lengths, &begins)?);
         }
         ferrompi::scope(|scope| {
             let world = &self.world;
             let come = world.iallgatherv(scope, own, all, &lengths, &begins)?;
-            self.offers.wait(world, come)
+            self.post.wait(world, come)
         })?;
         Ok(())
     }
@@ -244,7 +245,7 @@ pub fn in_pieces(world: &World, most: usize) -> Arc<dyn Ranks> {
     Arc::new(Processes {
         world: world.mpi.world(),
         most,
-        offers: Offers::default(),
+        post: PostOffice::default(),
         has_ended: AtomicBool::new(false),
     })
 }

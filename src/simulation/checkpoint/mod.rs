@@ -134,6 +134,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             team: _,
             steps_parts: _,
         } = self;
+        let shown = shown.own();
         // The next step starts from the state after the last one. While another is shown, no particles enter.
         let last = self.after_step_of_all();
         let State {

@@ -1,55 +1,52 @@
-//! What processes show each other between calls: questions and answers, beside the messages of all.
-//! Whoever waits for something answers meanwhile, so no two wait for each other.
+//! Questions for the offers of other processes, and answers: messages between two processes.
+//! A process that waits answers meanwhile, so two processes never wait for each other.
 
 use ferrompi::{Communicator, Request, Source};
 use meshfree::error::Failure;
-use meshfree::ranks::Offer;
+use meshfree::ranks::{Offer, Offers};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Tags of messages between two processes.
 const QUESTION: i32 = 7001;
 const ANSWER: i32 = 7002;
 
-/// First byte of an answer: whether the offer stands.
+/// Last byte of an answer: whether the offer stands.
 const WITHDRAWN: u8 = 0;
 const STANDS: u8 = 1;
 
-/// Offers of this process, and what has come and waits.
+/// The offers of this process, and messages that have come.
 #[derive(Default)]
 struct Post {
-    made: u64,
-    standing: Vec<(u64, Offer)>,
-    /// Who asks for which part of which offer.
+    offers: Offers,
+    /// Ranks that ask, with the numbers of the offer and of its part.
     questions: Vec<(i32, [u64; 2])>,
+    /// Ranks that answer, and their answers.
     answers: Vec<(i32, Vec<u8>)>,
 }
 
+/// Questions and answers of this process.
 #[derive(Default)]
-pub(crate) struct Offers(Mutex<Post>);
+pub(crate) struct PostOffice(Mutex<Post>);
 
-impl Offers {
+impl PostOffice {
     fn post(&self) -> MutexGuard<'_, Post> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    pub fn make(&self, own: Offer) -> u64 {
-        let mut post = self.post();
-        let number = post.made;
-        post.standing.push((number, own));
-        post.made += 1;
-        number
+    pub fn make(&self, offer: Offer) -> u64 {
+        self.post().offers.make(offer)
     }
 
     pub fn withdraw(&self, number: u64) {
-        self.post().standing.retain(|own| own.0 != number);
+        self.post().offers.withdraw(number);
     }
 
     /// Whether another process may ask.
-    pub fn stand(&self) -> bool {
-        !self.post().standing.is_empty()
+    pub fn has_offers(&self) -> bool {
+        !self.post().offers.is_empty()
     }
 
-    /// Waits for what all processes do at once.
+    /// Waits for a request, and answers questions meanwhile.
     pub fn wait(&self, world: &Communicator, mut request: Request<'_>) -> ferrompi::Result<()> {
         while request.test()?.is_none() {
             self.post().answer(world)?;
@@ -87,23 +84,23 @@ impl Offers {
 }
 
 impl Post {
-    /// Answers what others have asked of offers that were made.
+    /// Answers all questions for offers that were made.
     fn answer(&mut self, world: &Communicator) -> ferrompi::Result<()> {
         loop {
-            self.take_in(world)?;
-            let of_made = |own: &(i32, [u64; 2])| own.1[0] < self.made;
+            self.receive(world)?;
+            let of_made = |own: &(i32, [u64; 2])| self.offers.was_made(own.1[0]);
             let Some(k) = self.questions.iter().position(of_made) else {
                 return Ok(());
             };
             let (to, [number, part]) = self.questions.swap_remove(k);
-            let offer = self.standing.iter().find(|own| own.0 == number);
-            let mut answer = offer.map_or_else(Vec::new, |own| own.1(part as usize));
+            let offer = self.offers.find(number);
+            let mut answer = offer.map_or_else(Vec::new, |own| own(part as usize));
             answer.push(if offer.is_some() { STANDS } else { WITHDRAWN });
             self.send(world, &answer, to, ANSWER)?;
         }
     }
 
-    /// Sends a message, and takes in what comes meanwhile: the other process may be sending too.
+    /// Sends a message, and receives others meanwhile: the other process may be sending too.
     fn send(
         &mut self,
         world: &Communicator,
@@ -114,14 +111,15 @@ impl Post {
         ferrompi::scope(|scope| {
             let mut sent = world.isend(scope, bytes, to, tag)?;
             while sent.test()?.is_none() {
-                self.take_in(world)?;
+                self.receive(world)?;
                 std::thread::yield_now();
             }
             Ok(())
         })
     }
 
-    fn take_in(&mut self, world: &Communicator) -> ferrompi::Result<()> {
+    /// Receives all questions and answers that have come.
+    fn receive(&mut self, world: &Communicator) -> ferrompi::Result<()> {
         for tag in [QUESTION, ANSWER] {
             while let Some(there) = world.iprobe::<u8>(Source::Any, tag)? {
                 let mut bytes = vec![0; there.count.unwrap_or(0)];
