@@ -2,6 +2,7 @@
 //! The table is dense where the bounding box is well filled and hashed where it is not.
 
 use super::hilbert::hilbert_index;
+use crate::collective::{Corners, Join};
 use crate::scalar::Real;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -15,20 +16,26 @@ pub struct Grid<const D: usize> {
     counts: [u32; D],
 }
 
+/// The least and the largest of each coordinate of points that is finite.
+pub(crate) fn corners_of<T: Real, const D: usize>(points: &[[T; D]]) -> Corners<D> {
+    let Corners([mut low, mut high]) = Corners::NONE;
+    for point in points {
+        for d in 0..D {
+            let x = point[d].to_f64();
+            if x.is_finite() {
+                low[d] = low[d].min(x);
+                high[d] = high[d].max(x);
+            }
+        }
+    }
+    Corners([low, high])
+}
+
 impl<const D: usize> Grid<D> {
     /// A grid with cells of edge `size` over all `points` that are finite.
     #[must_use]
     pub fn over<T: Real>(points: &[[T; D]], size: f64) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-        for point in points {
-            for d in 0..D {
-                let x = point[d].to_f64();
-                if x.is_finite() {
-                    low[d] = low[d].min(x);
-                    high[d] = high[d].max(x);
-                }
-            }
-        }
+        let Corners([mut low, mut high]) = corners_of(points);
         let mut size = size;
         // A box so long that a coordinate overflows gets coarser cells; the search stays correct.
         for d in 0..D {
@@ -149,7 +156,11 @@ impl<const D: usize> Cells<D> {
     #[must_use]
     pub fn build<T: Real>(positions: &[[T; D]], points: &[u32], size: f64) -> Self {
         let chosen: Vec<[T; D]> = points.iter().map(|&p| positions[p as usize]).collect();
-        let grid = Grid::over(&chosen, size);
+        Self::in_grid(Grid::over(&chosen, size), &chosen, points)
+    }
+
+    /// Lists points, which are at these places, in the cells of a grid; those of a cell keep their order.
+    pub(super) fn in_grid<T: Real>(grid: Grid<D>, chosen: &[[T; D]], points: &[u32]) -> Self {
         let dense = grid.cells() <= 4 * points.len() + 1024;
         let keys: Vec<u64> = chosen
             .iter()
@@ -177,7 +188,7 @@ impl<const D: usize> Cells<D> {
             };
         }
         let mut pairs: Vec<(u64, u32)> = keys.into_iter().zip(points.iter().copied()).collect();
-        pairs.sort_unstable();
+        pairs.sort_by_key(|pair| pair.0);
         let mut runs = HashMap::new();
         let mut start = 0;
         for run in pairs.chunk_by(|a, b| a.0 == b.0) {

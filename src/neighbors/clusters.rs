@@ -1,7 +1,7 @@
 //! Cluster lists with a skin: the neighbours of rows of consecutive particles.
 //! A row of W particles shares one list, so the pair loop broadcasts each neighbour to full lanes.
 
-use super::sieve::{Candidates, Sieve, Source};
+use super::sieve::{Candidates, LocalBlock, Sieve, Source};
 use crate::parallel::{collect, cut, for_each};
 use crate::scalar::{InstructionSet, Real};
 use std::ops::Range;
@@ -203,9 +203,29 @@ impl ClusterLists {
         input: &SearchInput<'_, T, D>,
         runs: &[Range<usize>],
     ) {
+        self.rebuild_among(input, &[], runs);
+    }
+
+    /// Finds the neighbours of all clusters that are here, where each block has other particles elsewhere.
+    pub(crate) fn rebuild_local<T: Real, const D: usize>(
+        &mut self,
+        input: &SearchInput<'_, T, D>,
+        blocks: &[LocalBlock<D>],
+    ) {
+        let chunks = (input.slots / input.width).div_ceil(CHUNK);
+        self.rebuild_among(input, blocks, core::slice::from_ref(&(0..chunks)));
+    }
+
+    fn rebuild_among<T: Real, const D: usize>(
+        &mut self,
+        input: &SearchInput<'_, T, D>,
+        local: &[LocalBlock<D>],
+        runs: &[Range<usize>],
+    ) {
         let instructions = input.instructions.or_detected();
         // Blocks at once: liquid by one thread and walls by another.
-        let sources = collect(input.blocks.len(), |block| Source::of_block(input, block));
+        let source = |block: usize| Source::of_block(input, block, local.get(block));
+        let sources = collect(input.blocks.len(), source);
         let clusters = input.slots / input.width;
         self.chunks
             .resize_with(clusters.div_ceil(CHUNK), ChunkList::default);
@@ -327,8 +347,9 @@ fn search<T: Real, const D: usize>(
         }
         let chunk_slots = CHUNK * input.width;
         let first = members.start / chunk_slots * chunk_slots;
-        let orders =
-            [first, members.start, members.end, first + chunk_slots].map(|slot| slot as u32);
+        // What is not of this chunk may be numbered behind the last of it.
+        let last = (first + chunk_slots).min(input.slots);
+        let orders = [first, members.start, members.end, last].map(|slot| slot as u32);
         let [staying, may_leave] = sorted;
         let staying_counts = sort(&chunk.neighbors[start..], orders, staying);
         let leaving_counts = sort(leaving, orders, may_leave);
@@ -410,7 +431,7 @@ mod tests {
             skin: 0.01,
             instructions: InstructionSet::detect(),
         };
-        let parts = Source::of_block(&input, 0);
+        let parts = Source::of_block(&input, 0, None);
         assert_eq!(parts.len(), PARTS);
         assert!(
             parts

@@ -28,9 +28,11 @@ mod hilbert;
 mod own_lists;
 mod sieve;
 
+pub(crate) use cells::corners_of;
 pub use cells::{Cells, Grid};
 pub use clusters::{Block, CHUNK, ChunkList, ClusterLists, Order, Radii, SearchInput, Segment};
 pub use hilbert::hilbert_index;
+pub(crate) use sieve::{LocalBlock, leave_narrow};
 
 /// Entries of the list of a row of `lanes` particles at unit spacing, inside of a body: a ball as wide as the reach and the
 /// row.

@@ -2,41 +2,27 @@
 //! Lists follow from positions, so whoever has these makes those that it lacks.
 
 use super::clusters::{CHUNK, ChunkList, ClusterLists};
-use crate::ranks::{Taken, put_words};
+use crate::ranks::{Taken, put_numbers};
 use std::ops::Range;
 
 /// The cost of a cluster without the entries of its list, in entries.
 const CLUSTER: usize = 8;
 
 impl ClusterLists {
-    /// Takes the lists of some runs of chunks out, whose neighbours get other numbers.
-    pub(crate) fn take_runs(&mut self, runs: &[Range<usize>], number: impl Fn(u32) -> u32) -> Self {
-        let mut own = Self::default();
-        for run in runs {
-            let counts = &self.counts[self.clusters_of(run.clone())];
-            own.counts.extend_from_slice(counts);
-            let lists = self.chunks[run.clone()].iter_mut();
-            own.chunks.extend(lists.map(core::mem::take));
-        }
-        own.renumber(number);
-        own
+    /// Lists of chunks whose clusters have so many entries, none of which is here.
+    pub(crate) fn of_counts(counts: Vec<u32>) -> Self {
+        let mut chunks = Vec::new();
+        chunks.resize_with(counts.len().div_ceil(CHUNK), ChunkList::default);
+        Self { chunks, counts }
     }
 
-    /// Restores what was taken.
-    pub(crate) fn put_runs(
-        &mut self,
-        mut own: Self,
-        runs: &[Range<usize>],
-        number: impl Fn(u32) -> u32,
-    ) {
-        own.renumber(number);
-        let places = runs.iter().cloned().flatten();
-        for (chunk, list) in places.zip(own.chunks) {
-            self.chunks[chunk] = list;
-        }
+    /// Entries of each cluster.
+    pub(crate) fn counts(&self) -> &[u32] {
+        &self.counts
     }
 
-    fn renumber(&mut self, number: impl Fn(u32) -> u32) {
+    /// Gives neighbours other numbers.
+    pub(crate) fn renumber(&mut self, number: impl Fn(u32) -> u32) {
         for list in &mut self.chunks {
             list.neighbors.iter_mut().for_each(|j| *j = number(*j));
         }
@@ -95,16 +81,13 @@ impl ClusterLists {
 
     /// Adds how many entries the clusters of some chunks have to a message.
     pub(crate) fn put_counts(&self, chunks: Range<usize>, to: &mut Vec<u8>) {
-        put_words(&self.counts[self.clusters_of(chunks)], to);
+        put_numbers(&self.counts[self.clusters_of(chunks)], to);
     }
 
     /// Takes how many entries the clusters of some chunks have from a message.
     pub(crate) fn take_counts(&mut self, chunks: Range<usize>, from: &mut Taken<'_>) -> Option<()> {
         let clusters = self.clusters_of(chunks);
-        let mut counts = Vec::new();
-        from.words(clusters.len(), &mut counts)?;
-        self.counts[clusters].copy_from_slice(&counts);
-        Some(())
+        from.numbers(&mut self.counts[clusters])
     }
 }
 
@@ -180,18 +163,15 @@ mod tests {
             };
             assert_eq!(all.entries_of(slots, 8), rows.map(of_row).sum::<usize>());
         }
-        let mut rest = whole.clone();
-        let taken = rest.take_runs(&[1..2, 4..5], |j| j + 1);
-        assert_eq!((taken.chunks.len(), rest.entries()), (2, whole.entries()));
+        let known = ClusterLists::of_counts(whole.counts.clone());
+        assert_eq!((known.chunks.len(), known.entries()), (5, whole.entries()));
+        assert_eq!(known.missing(1..4), core::slice::from_ref(&(1..4)));
+        let mut other = whole.clone();
+        other.renumber(|j| j + 1);
         assert_eq!(
-            taken.chunks[1].neighbors[3],
+            other.chunks[4].neighbors[3],
             whole.chunks[4].neighbors[3] + 1
         );
-        assert!(!rest.chunks[1].is_here());
-        rest.put_runs(taken, &[1..2, 4..5], |j| j - 1);
-        for (own, other) in rest.chunks.iter().zip(&whole.chunks) {
-            assert_eq!(own.neighbors, other.neighbors);
-        }
         whole.keep(core::slice::from_ref(&(1..3)));
         let here: Vec<bool> = whole.chunks.iter().map(ChunkList::is_here).collect();
         assert_eq!(here, [false, true, true, false, false]);

@@ -1,10 +1,19 @@
 //! The points of a block that are within reach of a row of particles: cells near the row, and then their points.
 //! Points are looked at in rows, whose places lie axis by axis, each against all particles of the row.
 
-use super::cells::Cells;
+use super::cells::{Cells, Grid};
 use super::clusters::{Radii, SearchInput};
+use crate::collective::Corners;
 use crate::scalar::{Lane, MOST_LANES, Mask, OnRows, Real};
 use core::ops::Range;
+
+/// A block of which some particles are here.
+pub(crate) struct LocalBlock<const D: usize> {
+    /// These, by their numbers here, in the order of the whole block.
+    pub(crate) points: Vec<u32>,
+    /// The largest support radius and the box of each part of the whole block by its support radii.
+    pub(crate) parts: Vec<(f64, Corners<D>)>,
+}
 
 /// Particles of a block, as the search for neighbours meets them.
 pub(super) struct Source<T, const D: usize> {
@@ -24,21 +33,41 @@ pub(super) struct Source<T, const D: usize> {
 pub(super) const PARTS: usize = 8;
 pub(super) const NARROWER: f64 = 0.75;
 
+/// Leaves to the next part of a block, behind so many, what is too narrow for this one.
+pub(crate) fn leave_narrow(
+    points: &mut Vec<u32>,
+    (before, largest): (usize, f64),
+    radius: impl Fn(u32) -> f64,
+) -> Vec<u32> {
+    let mut rest = Vec::new();
+    if before + 1 < PARTS {
+        let narrow = |p: &u32| radius(*p) < NARROWER * largest;
+        rest.extend(points.iter().copied().filter(narrow));
+        points.retain(|p| !narrow(p));
+    }
+    rest
+}
+
 impl<T: Real, const D: usize> Source<T, D> {
     /// The particles of a block, those of wide support apart from the others: few particles that reach far, as gas behind a
     /// blast does, would else have all others searched for as far away as they reach.
-    pub(super) fn of_block(input: &SearchInput<'_, T, D>, block: usize) -> Vec<Self> {
+    pub(super) fn of_block(
+        input: &SearchInput<'_, T, D>,
+        block: usize,
+        local: Option<&LocalBlock<D>>,
+    ) -> Vec<Self> {
         let blocks = input.blocks.len();
         let wanted = (0..blocks).any(|own| input.lists(own, block));
         let slots = input.blocks[block].slots.clone();
-        let mut points: Vec<u32> = if wanted {
-            (slots.start as u32..slots.end as u32).collect()
-        } else {
-            Vec::new()
+        let mut points: Vec<u32> = match local {
+            _ if !wanted => Vec::new(),
+            Some(own) => own.points.clone(),
+            None => (slots.start as u32..slots.end as u32).collect(),
         };
+        // Where others are elsewhere all are known to be in so wide parts.
+        let part = |k: usize| local.and_then(|own| own.parts.get(k));
         let Radii::Varying(..) = input.radii else {
-            let largest = input.radii.of(0);
-            return vec![Self::new(input, &points, largest)];
+            return vec![Self::new(input, &points, input.radii.of(0), part(0))];
         };
         let widest = |points: &[u32]| {
             let radii = points.iter().map(|&p| input.radii.of(p as usize));
@@ -46,14 +75,11 @@ impl<T: Real, const D: usize> Source<T, D> {
         };
         let mut parts = Vec::new();
         loop {
-            let largest = widest(&points);
-            let mut rest = Vec::new();
-            if parts.len() + 1 < PARTS {
-                let narrow = |p: &u32| input.radii.of(*p as usize) < NARROWER * largest;
-                rest.extend(points.iter().copied().filter(narrow));
-                points.retain(|p| !narrow(p));
-            }
-            parts.push(Self::new(input, &points, largest));
+            let known = part(parts.len());
+            let largest = known.map_or_else(|| widest(&points), |own| own.0);
+            let radius = |p: u32| input.radii.of(p as usize);
+            let rest = leave_narrow(&mut points, (parts.len(), largest), radius);
+            parts.push(Self::new(input, &points, largest, known));
             if rest.is_empty() {
                 return parts;
             }
@@ -61,11 +87,24 @@ impl<T: Real, const D: usize> Source<T, D> {
         }
     }
 
-    fn new(input: &SearchInput<'_, T, D>, points: &[u32], largest: f64) -> Self {
+    fn new(
+        input: &SearchInput<'_, T, D>,
+        points: &[u32],
+        largest: f64,
+        known: Option<&(f64, Corners<D>)>,
+    ) -> Self {
         let reach = largest + input.skin;
         // Cells of half the reach fit the boxes of clusters better than cells of the full reach.
         let size = if D == 1 { reach } else { 0.5 * reach };
-        let cells = Cells::build(input.positions, points, size);
+        let chosen: Vec<[T; D]> = (points.iter())
+            .map(|&p| input.positions[p as usize])
+            .collect();
+        let grid = match known {
+            Some((_, Corners(corners))) => Grid::over(corners, size),
+            None => Grid::over(&chosen, size),
+        };
+        let cells = Cells::in_grid(grid, &chosen, points);
+        drop(chosen);
         let mut slots = cells.points().to_vec();
         slots.resize(slots.len() + MOST_LANES, 0);
         let mut positions = core::array::from_fn(|_| vec![T::zero(); slots.len()]);

@@ -131,6 +131,11 @@ impl<T: Real, const D: usize> Columns<T, D> {
         }
     }
 
+    /// Goes on with so many slots, whose columns have been put here.
+    pub(crate) fn set_slots(&mut self, slots: usize) {
+        self.slots = slots;
+    }
+
     /// Takes the numbers of some runs of slots out, one run after another, and frees all others: the fields are left without numbers.
     pub(crate) fn take_runs(&mut self, runs: &[Range<usize>]) -> Self {
         let mut some = Self {

@@ -1,8 +1,8 @@
 //! Numbers that ranks join: the largest of each, and whether something is so on any of them.
 //! What is joined depends on neither the order of ranks nor how particles are cut among them.
 
-use super::{Taken, Team, What, put_number, put_numbers};
-use crate::scalar::Real;
+use super::{Plain, Taken, Team, What, put_number, put_numbers};
+use crate::collective::Corners;
 use core::cell::Cell;
 use std::ops::Range;
 
@@ -42,9 +42,9 @@ impl Source<'_> {
     }
 
     /// Gets the numbers of each rank into its runs of `all`. Each rank gives `added` with its numbers, and `take_added` reads that.
-    pub fn numbers<T: Real>(
+    pub fn numbers<V: Plain>(
         &self,
-        all: &mut [T],
+        all: &mut [V],
         runs_of: impl Fn(usize) -> [Range<usize>; 2],
         added: Vec<u8>,
         mut take_added: impl FnMut(usize, &mut Taken<'_>) -> Option<()>,
@@ -85,10 +85,10 @@ impl Team {
 
     /// Gets the numbers of each rank where its runs are among those of all. In pieces, so that no message is large; with the first
     /// goes what each rank adds to it.
-    fn gather_numbers<T: Real>(
+    fn gather_numbers<V: Plain>(
         &self,
         what: What,
-        all: &mut [T],
+        all: &mut [V],
         runs_of: impl Fn(usize) -> [Range<usize>; 2],
         mut added: Vec<u8>,
         mut take_added: impl FnMut(usize, &mut Taken<'_>) -> Option<()>,
@@ -126,15 +126,41 @@ impl Team {
         }
     }
 
-    /// The largest of each number over all ranks, which are not negative.
+    /// The largest of each number over all ranks.
     pub fn largest<const N: usize>(&self, own: [f64; N]) -> [f64; N] {
-        let mut most = [0.0_f64; N];
-        self.numbers(own.map(f64::to_bits), |own| {
-            for (most, own) in most.iter_mut().zip(own) {
-                *most = most.max(f64::from_bits(own));
-            }
-        });
+        let mut most = own;
+        self.raise(&mut most);
         most
+    }
+
+    /// Raises each number to the largest of it over all ranks, of which all have as many.
+    pub fn raise(&self, own: &mut [f64]) {
+        let mut most = own.to_vec();
+        let put = |to: &mut Vec<u8>| put_numbers(own, to);
+        self.gather(What::Numbers, put, |_, from| {
+            let mut other = vec![0.0; most.len()];
+            let mut from = Taken(from);
+            from.numbers(&mut other)?;
+            for (most, other) in most.iter_mut().zip(other) {
+                *most = most.max(other);
+            }
+            from.0.is_empty().then_some(())
+        });
+        own.copy_from_slice(&most);
+    }
+
+    /// The corners of all vectors, of which each rank has those of its own, group by group, and the largest of each of other numbers.
+    pub fn join_corners<const D: usize>(&self, own: &mut [Corners<D>], largest: &mut [f64]) {
+        let outward = |own: &Corners<D>| [own.0[0].map(|x| -x), own.0[1]];
+        let outward: Vec<[[f64; D]; 2]> = own.iter().map(outward).collect();
+        let mut all = outward.as_flattened().as_flattened().to_vec();
+        all.extend_from_slice(largest);
+        self.raise(&mut all);
+        let (corners, others) = all.split_at(all.len() - largest.len());
+        for (own, [low, high]) in own.iter_mut().zip(corners.as_chunks().0.as_chunks().0) {
+            own.0 = [low.map(|x: f64| -x), *high];
+        }
+        largest.copy_from_slice(others);
     }
 
     /// The first rank that says something, and what: the same on all ranks.

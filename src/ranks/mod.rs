@@ -10,7 +10,7 @@
 //! |---|---|
 //! | sums over pairs, laws, equations of state, kicks, drifts | each rank has its own particles, and before each sweep gets the packed records of others that its lists name; it sums over those with neighbours of its own alone meanwhile |
 //! | votes on the step, validity of lists, impulses | each rank finds them for its own particles; then all ranks join them |
-//! | search for neighbours | all ranks get all places, and each lists the neighbours of its chunks; then particles go to their new ranks |
+//! | search for neighbours | particles that are sorted go to their next ranks; then each rank gets the places of those within reach of boxes around its own, and lists the neighbours of its chunks |
 //!
 //! Scenes of which a step looks at more than neighbours (couplings, contact, joints, rigid bodies, clamps, loads by particle, events,
 //! inlets and outlets), and calls that show every step, have another form of it: each rank sums over the pairs of its chunks, then all get
@@ -53,9 +53,8 @@
 //!
 //! # Memory
 //!
-//! Between list builds a rank has its own particles and their lists. It has all particles while it builds the scene, in the second form of
-//! a step, and after it has read. At list builds it has the places of all particles, and with boundaries that turn what crosses them,
-//! such as mirror planes, all of their columns.
+//! A rank has its own particles, their lists, and ghosts: particles of others that these name. It has all particles while it builds the
+//! scene, in the second form of a step, and after it has read.
 //!
 //! # Files
 //!
@@ -69,7 +68,7 @@
 //!
 //! [`Simulation::cost`](crate::simulation::Simulation::cost) lists the messages of a run, and
 //! [`Simulation::rank_model`](crate::simulation::Simulation::rank_model) predicts them, the time of a step and the memory of a rank for
-//! any number of ranks and any [`Network`]. What limits first is memory, and then the gathering of all particles at list builds.
+//! any number of ranks and any [`Network`]. What limits first is memory, for every rank builds the whole scene.
 //!
 //! # Errors
 //!
@@ -82,11 +81,12 @@ mod division;
 mod joined;
 mod model;
 mod offers;
+mod post;
 mod team;
 mod threads;
 mod traffic;
 
-pub(crate) use bytes::{Taken, put_number, put_numbers, put_words};
+pub(crate) use bytes::{Plain, Taken, put_number, put_numbers};
 pub(crate) use division::{Division, even};
 pub(crate) use joined::{Asked, Source};
 pub use model::{Network, RankCost, RankCostLine, RankModel, RankParts, RankPrice};

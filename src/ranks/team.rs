@@ -154,6 +154,11 @@ impl Team {
         self.buffers().given
     }
 
+    /// Counts that particles go to other ranks.
+    pub fn count_travel(&self) {
+        self.buffers().traffic.travelled += 1;
+    }
+
     fn buffers(&self) -> MutexGuard<'_, Buffers> {
         self.buffers.lock().unwrap_or_else(PoisonError::into_inner)
     }

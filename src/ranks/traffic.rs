@@ -11,6 +11,8 @@ pub struct Traffic {
     pub gathered: u64,
     /// Times at which ranks exchanged particles with those near them.
     pub exchanged: u64,
+    /// Times at which particles went to other ranks: list builds that sort them, and cuts anew.
+    pub travelled: u64,
     /// Bytes that the rank gave.
     pub sent: u64,
     /// Bytes that it got.

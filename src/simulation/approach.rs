@@ -1,7 +1,6 @@
 //! What moves towards each other limits the step: no pair may close by more than a share of its distance.
 //! Pairs are looked at only where the spread of velocities says that they could.
 
-use super::group::Group;
 use super::neighborhood::Neighborhood;
 use super::population::Particles;
 use super::vote::{Criterion, NO_VOTE, ROUNDED, Vote};
@@ -214,9 +213,12 @@ fn velocities<T: Real, const D: usize>(
         let v = by.velocity_of(&velocities[images[k].source as usize]);
         Corners::at(v.map(Real::to_f64))
     });
-    near.map_or(all.value(), |Near { team, .. }| {
-        Group::<T, D>::all_corners(team, all.value())
-    })
+    let mut corners = [all.value()];
+    if let Some(Near { team, .. }) = near {
+        team.join_corners(&mut corners, &mut []);
+    }
+    let [corners] = corners;
+    corners
 }
 
 /// What the approach of pairs asks for in one chunk, among the particles that move by forces.

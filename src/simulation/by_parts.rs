@@ -8,11 +8,11 @@ use super::part::Part;
 use super::run_state::State;
 use super::settle::PIECE;
 use super::vote::{Criterion, NO_VOTE, Vote};
-use crate::collective::{Corners, Join};
+use crate::collective::Join;
 use crate::error::{Error, Result};
 use crate::once::once;
 use crate::ranks::{Asked, Team};
-use crate::scalar::Real;
+use crate::scalar::{Real, width};
 use std::sync::Arc;
 
 impl<T: Real, const D: usize> Simulation<T, D> {
@@ -128,13 +128,6 @@ impl<T: Real, const D: usize> State<T, D> {
             }
         });
     }
-
-    /// Takes lists up that were left to a state, of all particles.
-    pub(super) fn take_lists(&mut self, last: &Self) {
-        for (own, last) in self.groups.iter_mut().zip(&last.groups) {
-            own.take_lists(last);
-        }
-    }
 }
 
 /// What stands for the error that all particles together tell.
@@ -160,6 +153,8 @@ impl<T: Real, const D: usize> Group<T, D> {
             && !self.is_met
             && !self.has_contacts()
             && !self.has_forces_of_laws()
+            // What repeats the last particle of a body is in its cluster, unless some have left.
+            && bodies.iter().all(|body| body.end - body.slots.end < width::<T>())
             && walls
                 .iter()
                 .all(|wall| wall.structure.is_none() && wall.inflow.is_none())
@@ -171,36 +166,33 @@ impl<T: Real, const D: usize> Group<T, D> {
             })
     }
 
-    /// Builds lists in a step of own particles, of which each goes to its next rank, and goes on with those that this one has then.
-    /// Kept states follow before. Where a boundary turns what crosses it, which it gives an impulse, all particles come together.
+    /// Builds lists in a step of own particles, which go to their next ranks before. Kept states follow.
     pub(super) fn rebuild_apart(&mut self, time: f64) {
         let boundaries = self.boundaries.iter();
         let mut transforms = boundaries
             .flat_map(|own| (0..own.images()).map(|k| own.transform(k, time).to_scalar::<T>()));
-        if transforms.any(|own| own.turns()) {
-            self.bring_together(Lists::BuiltNext, None);
-            self.neighborhood.choose_skin();
-            self.rebuild(time);
-            self.follow_wraps();
-            if self.may_part() {
-                self.keep_own();
-            }
-            return;
-        }
+        self.joins_given |= transforms.any(|own| own.turns());
         self.re_enter(time);
         self.follow_wraps();
-        let leaving = self.leave();
         self.neighborhood.choose_skin();
-        self.sort_and_list(time, self.neighborhood.lists.entries());
-        let order = core::mem::take(&mut self.particles.moved.order);
-        let Some(leaving) = leaving else {
+        let (Some(all), Some((team, _))) = (&self.all, self.apart()) else {
             return;
         };
-        if self.may_part() {
-            self.keep_own();
-            leaving.arrive(self, &order);
-        } else {
-            leaving.fail(self);
+        let sort = self.neighborhood.wants_sort(all.entries);
+        let [reach] = team.largest([self.neighborhood.reach(&self.particles)]);
+        self.begin_rebuild(time);
+        self.work.forget_records();
+        if sort {
+            self.sort_own();
+        }
+        self.neighborhood.remember(&self.particles);
+        self.list_own((time, reach));
+        if self.balance() {
+            self.neighborhood.remember(&self.particles);
+            self.list_own((time, reach));
+        }
+        if let Some(all) = self.all.as_ref().filter(|_| sort) {
+            self.neighborhood.sorted_entries = all.entries;
         }
     }
 
@@ -262,19 +254,5 @@ impl<T: Real, const D: usize> Group<T, D> {
             particle: found,
             ..shortest
         }
-    }
-
-    /// The corners of all vectors of which ranks have the corners.
-    pub(super) fn all_corners(team: &Team, own: Corners<D>) -> Corners<D> {
-        let mut all = Corners::NONE;
-        let [low, high] = own.0;
-        for d in 0..D {
-            team.numbers([low[d].to_bits(), high[d].to_bits()], |[low, high]| {
-                let Corners([least, most]) = &mut all;
-                least[d] = least[d].min(f64::from_bits(low));
-                most[d] = most[d].max(f64::from_bits(high));
-            });
-        }
-        all
     }
 }

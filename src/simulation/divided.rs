@@ -3,8 +3,6 @@
 
 use super::Simulation;
 use super::group::Group;
-use super::neighborhood::Neighborhood;
-use super::part::Part;
 use crate::clock::Instant;
 use crate::collective::over;
 use crate::error::{Error, Result};
@@ -41,8 +39,6 @@ fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
 pub(crate) struct Share {
     pub team: Arc<Team>,
     division: Division,
-    /// What this rank has between these list builds, from its first request on.
-    part: Option<Arc<Part>>,
 }
 
 impl Share {
@@ -50,7 +46,6 @@ impl Share {
         Self {
             team,
             division: Division::default(),
-            part: None,
         }
     }
 
@@ -58,7 +53,6 @@ impl Share {
     pub fn divide<T: Real>(&mut self, lists: &ClusterLists, mobile: usize) {
         let mobile = mobile.div_ceil(CHUNK * width::<T>());
         self.division = Division::new(&lists.costs(), mobile, self.team.count());
-        self.part = None;
     }
 
     /// The chunks of all ranks.
@@ -72,12 +66,20 @@ impl Share {
         mobile.end.max(others.end) == lists.chunks().len()
     }
 
-    /// What this rank has of a group whose lists were cut. All ranks ask for it at once.
-    pub fn part<T: Real, const D: usize>(&mut self, group: &Neighborhood<T, D>) -> Arc<Part> {
-        let (team, division) = (&self.team, &self.division);
-        let part = &mut self.part;
-        part.get_or_insert_with(|| Arc::new(Part::of(team, division, group)))
-            .clone()
+    /// Cuts the chunks as said.
+    pub fn set_division(&mut self, division: Division) {
+        self.division = division;
+    }
+
+    /// How chunks of these costs, of which so many have particles that move by forces, are cut anew: where the slowest rank is more than a
+    /// tenth above the mean.
+    pub fn better_division(&self, costs: &[usize], of_mobile: usize) -> Option<Division> {
+        let new = Division::new(costs, of_mobile, self.team.count());
+        let [now, then] = [&new, &self.division].map(|own| own.imbalance(costs));
+        // Few chunks cannot be cut better, and would go to and fro; and what ranks step by parts stays so.
+        let is_better = now <= SLOWEST || now < WORTH * then;
+        let stays = self.division.is_full() && !new.is_full();
+        (then > SLOWEST && is_better && !stays).then_some(new)
     }
 
     /// Makes the lists of own chunks as they were cut before, which are cut anew where the slowest rank would be more than a tenth
@@ -94,7 +96,6 @@ impl Share {
         if !self.division.is_of(chunks, of_mobile) {
             self.division = Division::new(&vec![1; chunks], of_mobile, self.team.count());
         }
-        self.part = None;
         let made = self.division.of(rank);
         lists.keep(&made);
         lists.rebuild_some(input, &made);
@@ -115,15 +116,9 @@ impl Share {
             // What is under way goes on to where the error is told.
             lists.rebuild(input);
         }
-        let costs = lists.costs();
-        let new = Division::new(&costs, of_mobile, self.team.count());
-        let [now, then] = [&new, &self.division].map(|own| own.imbalance(&costs));
-        // Few chunks cannot be cut better, and would go to and fro; and what ranks step by parts stays so.
-        let is_better = now <= SLOWEST || now < WORTH * then;
-        let stays = self.division.is_full() && !new.is_full();
-        if then <= SLOWEST || !is_better || stays {
+        let Some(new) = self.better_division(&lists.costs(), of_mobile) else {
             return;
-        }
+        };
         self.division = new;
         let wanted = self.division.of(rank);
         lists.keep(&wanted);

@@ -60,6 +60,8 @@ pub(crate) struct Group<T: Real, const D: usize> {
     /// The times \[s\] of kept states, and what came through boundaries before the ledger took it, where ranks part again.
     pub kept_times: Vec<f64>,
     pub given: Vec<Given<D>>,
+    /// Whether ranks, of which each has what its own particles were given, have to join it.
+    pub joins_given: bool,
 }
 
 /// What of a force by an image of another body is between the two, (f + R f)/2, and what the boundary gives, (f − R f)/2.
@@ -109,6 +111,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             limited: Vec::new(),
             kept_times: Vec::new(),
             given: Vec::new(),
+            joins_given: false,
         }
     }
 

@@ -196,13 +196,22 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let mut given = core::mem::take(&mut group.given);
         given.extend(group.work.follow(&mut group.particles.moved, time_of));
         let first_boundary = group.particles.bodies.len() + group.walls.len();
-        for of_state in given.chunk_by(|a, b| a.0 == b.0) {
+        let joins = core::mem::take(&mut group.joins_given);
+        let team = self.team.as_ref().filter(|_| joins);
+        if given.is_empty() && team.is_none() {
+            return;
+        }
+        let kept = (0..state.kept_impulses.len()).map(Some);
+        for of_state in core::iter::once(None).chain(kept) {
             let indices = &state.groups[number].indices;
-            for (_, [body, boundary], impulse) in of_state {
+            for (_, [body, boundary], impulse) in given.iter().filter(|own| own.0 == of_state) {
                 let pair = indices[*body] * blocks + indices[first_boundary + boundary];
                 self.pair_forces.add(pair, *impulse);
             }
-            let impulses = match of_state[0].0 {
+            if let Some(team) = team {
+                self.pair_forces.join(team);
+            }
+            let impulses = match of_state {
                 None => &mut state.impulses,
                 Some(slot) => &mut state.kept_impulses[slot],
             };

@@ -1,172 +1,165 @@
-//! The way of particles to other ranks at a list build: each number goes from the rank that had it to the one that gets it.
-//! All ranks know the new order, so each finds by itself what it sends and what it gets.
+//! The way of particles to other ranks at a list build: each number goes from the rank that has it to the one that gets it.
+//! Who goes where is told by one number of each, by which all particles of the group are in order.
 
 use super::group::Group;
-use super::part::{place_in, runs_of};
-use super::workspace::{Saved, Workspace};
-use crate::particles::{Columns, Field};
-use crate::ranks::{Division, Letters, Taken, Team, put_numbers};
+use crate::ranks::{Letters, Plain, Taken, Team, put_numbers};
 use crate::scalar::Real;
 use crate::sweep::Results;
+use core::mem::take;
 use std::ops::Range;
+use std::sync::Arc;
 
-/// What a rank had of a group before a list build, but for what lists are built from.
-pub(super) struct Leaving<T: Real, const D: usize> {
-    pub division: Division,
-    pub columns: Columns<T, D>,
-    pub work: Workspace<T, D>,
+/// A particle of this rank, the rank that it goes to, and its place in the order of all.
+pub(super) struct Going {
+    pub slot: u32,
+    pub to: u32,
+    pub order: [u32; 4],
 }
 
 /// Who sends which of its particles to whom.
-struct Route<'a> {
-    team: &'a Team,
+pub(super) struct Route {
+    team: Arc<Team>,
     /// Particles that this rank sends, rank by rank, and how many each gets and gives.
     sends: Vec<u32>,
     to: Vec<usize>,
     from: Vec<usize>,
     /// How many it had.
     had: usize,
-    /// Where each particle of this rank stands now: among those that it had, or behind these among those that come.
-    sources: Vec<u32>,
+    /// Where each particle of this rank stands, in their order: among those that it had, or behind these among those that come.
+    pub sources: Vec<u32>,
 }
 
-impl<'a> Route<'a> {
-    /// From the runs of each rank before to those after. Slot k of the group becomes what slot `order[k]` was; an empty order keeps
-    /// all slots.
-    fn new(team: &'a Team, runs: &[[[Range<usize>; 2]; 2]], order: &[u32]) -> Self {
-        let before = |slot: usize| order.get(slot).map_or(slot, |&old| old as usize);
-        let rank = team.rank();
-        let own = &runs[rank][0];
-        let had = own.iter().map(Range::len).sum();
-        let is_in = |runs: &[Range<usize>; 2], slot| runs.iter().any(|run| run.contains(&slot));
-        let after = |other: usize| runs[other][1].clone().into_iter().flatten().map(before);
-        let (mut sends, mut to, mut from) = (Vec::new(), Vec::new(), vec![0; runs.len()]);
-        for other in 0..runs.len() {
-            let begun = sends.len();
-            if other != rank {
-                let leave = after(other).filter(|old| is_in(own, *old));
-                sends.extend(leave.map(|old| place_in(own, old) as u32));
+impl Route {
+    /// From where each particle of this rank, which has so many slots, goes, in their order; none where a rank has failed.
+    pub fn new(team: &Arc<Team>, had: usize, own: &[Going]) -> Option<Self> {
+        let stays = |own: &Going| own.to as usize == team.rank();
+        let mut leave: Vec<&Going> = own.iter().filter(|own| !stays(own)).collect();
+        leave.sort_by_key(|own| own.to);
+        let mut to = vec![0; team.count()];
+        for own in &leave {
+            to[own.to as usize] += 1;
+        }
+        let orders: Vec<[u32; 4]> = leave.iter().map(|own| own.order).collect();
+        let (orders, from) = team.letters((&orders, &to), Letters::Moved);
+        team.count_travel();
+        if team.is_broken() {
+            return None;
+        }
+        let mut come: Vec<_> = orders.into_iter().zip(had as u32..).collect();
+        come.sort_unstable();
+        let mut come = come.into_iter().peekable();
+        let mut sources = Vec::with_capacity(own.len() - leave.len() + come.len());
+        for own in own.iter().filter(|own| stays(own)) {
+            while let Some((_, source)) = come.next_if(|(order, _)| *order < own.order) {
+                sources.push(source);
             }
-            to.push(sends.len() - begun);
+            sources.push(own.slot);
         }
-        // Of either kind ranks have ascending runs.
-        let moving = runs[runs.len() - 1][0][0].end;
-        let owner = |old: usize| {
-            let kind = usize::from(old >= moving);
-            runs.partition_point(|own| own[0][kind].end <= old)
-        };
-        let owners = after(rank).map(|old| Some(owner(old)).filter(|own| *own != rank));
-        for other in owners.clone().flatten() {
-            from[other] += 1;
-        }
-        let mut next = had;
-        let mut places: Vec<usize> = Vec::with_capacity(from.len());
-        for count in &from {
-            places.push(next);
-            next += count;
-        }
-        let sources = after(rank).zip(owners).map(|(old, owner)| match owner {
-            None => place_in(own, old) as u32,
-            Some(other) => {
-                places[other] += 1;
-                places[other] as u32 - 1
-            }
-        });
-        let sources = sources.collect();
-        Self {
-            team,
-            sends,
+        sources.extend(come.map(|own| own.1));
+        Some(Self {
+            team: team.clone(),
+            sends: leave.iter().map(|own| own.slot).collect(),
             to,
             from,
             had,
             sources,
-        }
+        })
     }
 
-    /// A column of the particles that this rank gets, from that of those that it had.
-    fn carry<T: Real>(&self, own: &[T], width: usize) -> Vec<T> {
-        let at = |slot: u32| slot as usize * width..(slot as usize + 1) * width;
-        let size = width * size_of::<T>();
-        let mut letters = Vec::with_capacity(size * self.sends.len());
-        for &slot in &self.sends {
-            put_numbers(&own[at(slot)], &mut letters);
+    /// Columns of the particles that this rank gets, and what they are known by, from those of the particles that it had. A column has
+    /// so many numbers of each, or none of any.
+    fn carry<T: Real>(&self, own: Vec<(Vec<T>, usize)>, ids: &[u32]) -> (Vec<Vec<T>>, Vec<u32>) {
+        let there = || own.iter().filter(|own| !own.0.is_empty());
+        let (mut sent, mut rest) = (Vec::new(), &self.sends[..]);
+        for &count in &self.to {
+            let slots;
+            (slots, rest) = rest.split_at(count);
+            for &slot in slots {
+                put_numbers(&ids[at(slot, 1)], &mut sent);
+            }
+            for (column, width) in there() {
+                for &slot in slots {
+                    put_numbers(&column[at(slot, *width)], &mut sent);
+                }
+            }
         }
-        let count: usize = self.from.iter().sum();
-        let mut come = vec![0; size * count];
-        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| size * n).collect() };
+        let widths = there().map(|own| own.1);
+        let each = size_of::<u32>() + widths.sum::<usize>() * size_of::<T>();
+        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| each * n).collect() };
         let (to, from) = (bytes(&self.to), bytes(&self.from));
-        let told = self
-            .team
-            .exchange(Letters::Moved, (&letters, &to), (&mut come, &from));
-        let mut arrived = vec![T::zero(); width * count];
-        if told {
-            let _ = Taken(&come).numbers(&mut arrived);
+        let come = self.team.post((&sent, &to), &from, Letters::Moved);
+        // Nothing is read of what comes where a rank has failed.
+        let come = come.unwrap_or_else(|| vec![0; from.iter().sum()]);
+        let mut rest = &come[..];
+        let mut letters: Vec<Taken<'_>> = (from.iter())
+            .map(|size| Taken(rest.split_off(..*size).unwrap_or_default()))
+            .collect();
+        let ids = self.arrange(ids, 1, &mut letters);
+        let column = |(own, width): (Vec<T>, usize)| {
+            if own.is_empty() {
+                return own;
+            }
+            self.arrange(&own, width, &mut letters)
+        };
+        (own.into_iter().map(column).collect(), ids)
+    }
+
+    /// A column in the order of the particles that this rank gets, whose letters begin with those that come.
+    fn arrange<V: Plain>(&self, own: &[V], width: usize, letters: &mut [Taken<'_>]) -> Vec<V> {
+        let mut come = Vec::new();
+        for (letter, count) in letters.iter_mut().zip(&self.from) {
+            let _ = letter.more(width * count, &mut come);
         }
         let mut all = Vec::with_capacity(width * self.sources.len());
         for &source in &self.sources {
             all.extend_from_slice(match (source as usize).checked_sub(self.had) {
-                None => &own[at(source)],
-                Some(k) => &arrived[at(k as u32)],
+                None => &own[at(source, width)],
+                Some(k) => &come[at(k as u32, width)],
             });
         }
         all
     }
 }
 
-impl<T: Real, const D: usize> Leaving<T, D> {
-    /// Gives a group, which has this rank's places after a list build, all else of its particles.
-    pub fn arrive(mut self, group: &mut Group<T, D>, order: &[u32]) {
-        let (Some(all), Some(share)) = (&group.all, &group.share) else {
-            return;
-        };
-        let divisions = [&self.division, share.division()];
-        let runs: Vec<_> = (0..share.team.count())
-            .map(|rank| divisions.map(|own| runs_of::<T>(own, rank, all.slots())))
-            .collect();
-        let route = Route::new(&share.team, &runs, order);
-        for field in self.columns.fields().iter() {
-            let own = core::mem::take(self.columns.column_mut(field));
-            if !own.is_empty() {
-                let column = group.particles.columns.column_mut(field);
-                *column = route.carry(&own, field.components(D));
-            }
-        }
-        let carry_sums = |own: &mut Results<T, D>| {
-            let own = core::mem::take(own);
-            let width = own.outputs().width(D);
-            if width == 0 {
-                return own;
-            }
-            let numbers = route.carry(&own.numbers(route.had), width);
-            // Nothing tells the chunks of forces between blocks.
-            let forces = own.reactions().copied().collect();
-            let moving = &numbers[..width * group.particles.mobile];
-            Results::of_rows(own.outputs(), moving, forces)
-        };
-        let work = &mut self.work;
-        group.work.rates = carry_sums(&mut work.rates);
-        group.work.worked = carry_sums(&mut work.worked);
-        let carry_saved = |own: &Saved<T>| -> Saved<T> {
-            let carried = |(field, column): &(Field, Vec<T>)| match column.len() {
-                0 => (*field, Vec::new()),
-                _ => (*field, route.carry(column, field.components(D))),
-            };
-            own.iter().map(carried).collect()
-        };
-        group.work.kept = work.kept.iter().map(carry_saved).collect();
-        if work.is_predicted {
-            group.work.predicted = carry_saved(&work.predicted);
-        }
-    }
+/// The numbers of a slot in a column that has so many of each.
+fn at(slot: u32, width: usize) -> Range<usize> {
+    slot as usize * width..(slot as usize + 1) * width
+}
 
-    /// The same where a rank has failed, which is told where the call ends: room for all particles.
-    pub fn fail(self, group: &mut Group<T, D>) {
-        let slots = group.particles.columns.slots();
-        for field in self.columns.fields().iter() {
-            let column = group.particles.columns.column_mut(field);
-            column.resize(field.components(D) * slots, T::zero());
+impl<T: Real, const D: usize> Group<T, D> {
+    /// Goes on with the particles that come by a route, of which the first `mobile` ones move by forces.
+    pub(super) fn travel(&mut self, route: &Route, mobile: usize) {
+        let (particles, work) = (&mut self.particles, &mut self.work);
+        work.forget_taken_back();
+        let mut own = Vec::new();
+        for field in particles.columns.fields().iter() {
+            let column = take(particles.columns.column_mut(field));
+            own.push((column, field.components(D)));
         }
-        (group.work).expect_saved(&self.work, &group.particles, slots);
+        for sums in work.sums_mut() {
+            let outputs = sums.outputs();
+            own.push((sums.numbers(route.had), outputs.width(D)));
+            // Nothing tells the chunks of forces between blocks.
+            let forces = sums.reactions().copied().collect();
+            *sums = Results::of_rows(outputs, &[], forces);
+        }
+        for (field, column) in work.saved_mut() {
+            own.push((take(column), field.components(D)));
+        }
+        let (come, ids) = route.carry(own, &particles.ids);
+        let mut come = come.into_iter();
+        let mut next = || come.next().unwrap_or_default();
+        for field in particles.columns.fields().iter() {
+            *particles.columns.column_mut(field) = next();
+        }
+        particles.columns.set_slots(route.sources.len());
+        particles.ids = ids;
+        for sums in work.sums_mut() {
+            let (outputs, numbers) = (sums.outputs(), next());
+            let forces = sums.reactions().copied().collect();
+            *sums = Results::of_rows(outputs, &numbers[..outputs.width(D) * mobile], forces);
+        }
+        work.saved_mut().for_each(|(_, column)| *column = next());
     }
 }
 
@@ -175,51 +168,44 @@ mod tests {
     use super::*;
     use crate::ranks::in_threads;
 
-    /// Slots of a rank: of particles that move by forces, of which there are 60, and of the 40 others.
-    fn cut_at(rank: usize, bounds: [[usize; 4]; 2]) -> [Range<usize>; 2] {
-        bounds.map(|own| own[rank]..own[rank + 1])
-    }
-
     #[test]
     fn every_number_comes_to_where_the_order_says() {
-        let cuts = [
-            [[0, 20, 30, 60], [60, 70, 70, 100]],
-            [[0, 7, 50, 60], [60, 61, 90, 100]],
-        ];
-        // Particles keep to their kind, and some are repeated.
-        let mixed: Vec<u32> = (0..60)
-            .map(|k| k * 37 % 60)
-            .chain((0..40).map(|k| 60 + k * 13 % 39))
-            .collect();
+        // Where the part of each rank begins before and after.
+        let cuts = [[0, 20, 30, 60], [0, 7, 50, 60]];
         let all = in_threads(3, 1, |ranks| {
-            let rank = ranks.rank();
-            let team = Team::new(ranks);
-            let runs: Vec<_> = (0..3)
-                .map(|rank| cuts.map(|own| cut_at(rank, own)))
-                .collect();
-            let [before, after] = runs[rank].clone();
-            let column = |runs: &[Range<usize>; 2], order: &[u32]| -> Vec<f64> {
-                let slots = runs.iter().cloned().flatten();
-                let at = |slot| order.get(slot).map_or(slot, |&old| old as usize);
-                slots
-                    .flat_map(|slot| [at(slot) as f64, -0.5 * at(slot) as f64])
-                    .collect()
+            let (rank, team) = (ranks.rank(), Arc::new(Team::new(ranks)));
+            let own = cuts[0][rank]..cuts[0][rank + 1];
+            let place = |number: usize| number * 37 % 60;
+            let going = own.clone().map(|number| Going {
+                slot: (number - own.start) as u32,
+                to: cuts[1].partition_point(|first| *first <= place(number)) as u32 - 1,
+                order: [0, 0, place(number) as u32, 0],
+            });
+            let mut going: Vec<_> = going.collect();
+            going.sort_by_key(|own| own.order);
+            let route = Route::new(&team, own.len(), &going).expect("a route");
+            let column = |numbers: &mut dyn Iterator<Item = usize>| -> Vec<f64> {
+                numbers.flat_map(|k| [k as f64, -0.5 * k as f64]).collect()
             };
-            for order in [&mixed[..], &[]] {
-                let route = Route::new(&team, &runs, order);
-                let carried = route.carry(&column(&before, &[]), 2);
-                assert_eq!(carried, column(&after, order));
-            }
-            let stay = runs
-                .iter()
-                .map(|own| [own[0].clone(), own[0].clone()])
-                .collect::<Vec<_>>();
-            let route = Route::new(&team, &stay, &[]);
-            assert!(
-                route.sends.is_empty(),
-                "nothing travels where nothing moves"
-            );
-            assert_eq!(route.carry(&column(&before, &[]), 2), column(&before, &[]));
+            let ids: Vec<u32> = own.clone().map(|number| number as u32).collect();
+            let columns = vec![(column(&mut own.clone()), 2), (Vec::new(), 3)];
+            let (carried, ids) = route.carry(columns, &ids);
+            let mut come: Vec<usize> = (0..60).collect();
+            come.sort_by_key(|number| place(*number));
+            let come = &come[cuts[1][rank]..cuts[1][rank + 1]];
+            assert_eq!(carried, [column(&mut come.iter().copied()), Vec::new()]);
+            assert!(ids.into_iter().eq(come.iter().map(|number| *number as u32)));
+            // Nothing travels where nothing moves.
+            let stay = (0..own.len()).map(|slot| Going {
+                slot: slot as u32,
+                to: rank as u32,
+                order: [slot as u32, 0, 0, 0],
+            });
+            let stay: Vec<_> = stay.collect();
+            let route = Route::new(&team, own.len(), &stay).expect("a route");
+            assert!(route.sends.is_empty());
+            let (all, _) = route.carry(vec![(vec![2.0_f64; own.len()], 1)], &[0; 60]);
+            assert_eq!(all, [vec![2.0; own.len()]]);
         });
         assert_eq!(all.expect("threads").len(), 3);
     }

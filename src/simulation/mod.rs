@@ -182,7 +182,9 @@ mod outflow;
 mod outlook;
 mod own_counts;
 mod own_group;
+mod own_order;
 mod own_parts;
+mod own_search;
 mod own_work;
 mod pair_list;
 mod part;
@@ -435,9 +437,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn evaluate(&mut self) -> Result<()> {
         once!(self => &mut Simulation, |own| -> Result<()> {
             own.check_failure()?;
-            if let Reading::Between(last) = &own.shown {
-                own.state.take_lists(last);
-            }
             if own.state.rates_at_hand && own.aside.is_none() {
                 own.aside = Some(Box::new(own.keep()));
             }

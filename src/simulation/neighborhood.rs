@@ -2,13 +2,12 @@
 //! It is rebuilt from the positions that it remembers, so a checkpoint needs no lists.
 
 use super::divided::Share;
-use super::group::Group;
 use super::images::Chains;
 use super::population::Particles;
 use super::walls::WallState;
 use crate::boundary::Boundary;
 use crate::collective::{Corners, largest, over};
-use crate::neighbors::{Block, ClusterLists, Radii, SearchInput};
+use crate::neighbors::{Block, ClusterLists, LocalBlock, Radii, SearchInput};
 use crate::parallel::apart;
 use crate::particles::Field;
 use crate::ranks::Team;
@@ -99,8 +98,9 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         self.support * largest.max(self.smoothing_length) + self.skin
     }
 
-    /// Makes the lists outdated, for a rehearsal, with the skin that they have.
-    pub fn outdate(&mut self) {
+    /// Makes the lists and the order of particles outdated, for a rehearsal, with the skin that they have.
+    pub fn outdate(&mut self, sort: bool) {
+        self.sorted_entries = if sort { 0 } else { usize::MAX };
         self.served = u32::midpoint(LASTING[0], LASTING[1]);
         if let Some(first) = Arc::make_mut(&mut self.listed).first_mut() {
             // No particle is as far away as that.
@@ -161,11 +161,13 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             return 2.0 * farthest > left;
         }
         // What moves together stays together: no pair's distance changes by more than the corners of all displacements are apart.
-        let corners = over(0..positions.len(), |slot| {
+        let mut corners = [over(0..positions.len(), |slot| {
             Corners::<D>::at(core::array::from_fn(|d| moved_by(slot, d)))
-        });
-        let corners = team.map_or(corners, |team| Group::<T, D>::all_corners(team, corners));
-        let apart2: f64 = corners.extent().iter().map(|apart| apart.powi(2)).sum();
+        })];
+        if let Some(team) = team {
+            team.join_corners(&mut corners, &mut []);
+        }
+        let apart2: f64 = corners[0].extent().iter().map(|apart| apart.powi(2)).sum();
         apart2.sqrt() > left
     }
 
@@ -205,6 +207,16 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         at: (f64, f64),
         (instructions, share): (InstructionSet, Option<&mut Share>),
     ) {
+        self.remember(particles);
+        self.place_blocks(particles, walls, boundaries, at);
+        self.search_anew(instructions, |lists, input| match share {
+            None => lists.rebuild(input),
+            Some(share) => share.list(lists, input, particles.mobile),
+        });
+    }
+
+    /// Remembers where particles are, from which lists are built.
+    pub(super) fn remember(&mut self, particles: &Particles<T, D>) {
         if Arc::get_mut(&mut self.listed).is_none() {
             self.listed = Arc::default();
         }
@@ -214,8 +226,6 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         self.listed_h.clear();
         self.listed_h
             .extend_from_slice(particles.columns.raw(Field::SMOOTHING_LENGTH));
-        self.place_blocks(particles, walls, boundaries, at);
-        self.search_anew((instructions, share), particles.mobile);
     }
 
     /// Finds blocks, and images within `reach` \[m\], of particles where they are listed.
@@ -237,12 +247,11 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             .extend(walls.iter().map(|wall| wall.is_mirrored()));
         let walls_of = walls.iter().map(|wall| wall.slots.clone());
         self.blocks.extend(walls_of.map(block(true)));
-        self.place_images(particles, walls, boundaries, time);
-        if !self.listed_h.is_empty() {
-            for image in &self.images {
-                self.listed_h.push(self.listed_h[image.source as usize]);
-            }
-        }
+        let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
+        let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
+        let slots = |own: &Range<usize>| own.start as u32..own.end as u32;
+        let sources = bodies.chain(walls).map(|(own, wall)| (slots(own), wall));
+        self.place_images(sources, boundaries, time);
     }
 
     /// Lists neighbours at places, with smoothing lengths where they vary, for which a device has listed them. Those of images are known.
@@ -255,13 +264,24 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         listed.extend_from_slice(&self.listed[listed.len()..]);
         listed_h.extend_from_slice(&self.listed_h[listed_h.len()..]);
         (self.listed, self.listed_h) = (Arc::new(listed), listed_h);
-        self.search_anew((instructions, None), 0);
+        self.search_anew(instructions, |lists, input| lists.rebuild(input));
+    }
+
+    /// Lists neighbours of the particles in the first slots, where each block is what is here of a block of all ranks.
+    pub(super) fn search_own(
+        &mut self,
+        blocks: &[LocalBlock<D>],
+        (instructions, slots): (InstructionSet, usize),
+    ) {
+        self.search_anew(instructions, |lists, input| {
+            lists.rebuild_local(&SearchInput { slots, ..*input }, blocks);
+        });
     }
 
     fn search_anew(
         &mut self,
-        (instructions, share): (InstructionSet, Option<&mut Share>),
-        mobile: usize,
+        instructions: InstructionSet,
+        act: impl FnOnce(&mut ClusterLists, &SearchInput<'_, T, D>),
     ) {
         self.whole = OnceLock::new();
         let mut lists = core::mem::take(&mut self.lists);
@@ -269,11 +289,15 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
             lists = Arc::default();
         }
         let new = Arc::make_mut(&mut lists);
-        self.search(instructions, |input| match share {
-            None => new.rebuild(input),
-            Some(share) => share.list(new, input, mobile),
-        });
+        self.search(instructions, |input| act(new, input));
         self.lists = lists;
+    }
+
+    /// Makes lists of some chunks, which are not here.
+    pub(super) fn search_some(&mut self, instructions: InstructionSet, chunks: &[Range<usize>]) {
+        self.search_anew(instructions, |lists, input| {
+            lists.rebuild_some(input, chunks);
+        });
     }
 
     /// Searches for neighbours at the places of the last list build.
@@ -316,11 +340,11 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         })
     }
 
-    /// Finds which images are needed. The images of each body and of each wall are blocks of their own, one a boundary.
-    fn place_images(
+    /// Finds which images are needed of the particles of each body and of each wall, by their numbers. They are blocks of their own, one a
+    /// boundary.
+    pub(super) fn place_images<'a, S: Iterator<Item = u32> + Clone>(
         &mut self,
-        particles: &Particles<T, D>,
-        walls: &[WallState<T, D>],
+        sources: impl Iterator<Item = (S, Option<&'a WallState<T, D>>)>,
         boundaries: &[Arc<dyn Boundary<D>>],
         time: f64,
     ) {
@@ -329,22 +353,23 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         if boundaries.is_empty() {
             return;
         }
-        let bodies = particles.bodies.iter().map(|body| (&body.slots, None));
-        let walls = walls.iter().map(|wall| (&wall.slots, Some(wall)));
         let listed = Arc::make_mut(&mut self.listed);
         let mut images = Vec::new();
-        for (sources, wall) in bodies.chain(walls) {
+        for (sources, wall) in sources {
             images.clear();
             for b in 0..boundaries.len() {
                 let before = images.len();
                 let at = (self.listed_reach, time);
-                let place = |slot: usize| (slot as u32, listed[slot].map(Real::to_f64));
-                let sources = Range::clone(sources).map(place);
+                let place = |own: u32| (own, listed[own as usize].map(Real::to_f64));
+                let sources = sources.clone().map(place);
                 self.chains.show(sources, &mut images, (boundaries, b), at);
                 let start = listed.len();
                 for (image, x) in &images[before..] {
                     self.images.push(*image);
                     listed.push(x.map(T::from_f64));
+                    if let Some(h) = self.listed_h.get(image.source as usize) {
+                        self.listed_h.push(*h);
+                    }
                 }
                 self.blocks.push(Block {
                     slots: start..listed.len(),

@@ -1,4 +1,4 @@
-//! The parts of the offer of a rank: its columns, saved states, sums and records.
+//! The parts of the offer of a rank: its columns, where they were listed, saved states, sums and records.
 //! They have the order in which `bring_together` in `own_group` asks for them.
 
 use super::group::Group;
@@ -11,6 +11,7 @@ use std::ops::Range;
 /// A part: numbers of particles, or sums over so many chunks.
 enum OwnPart<'a, T: Real, const D: usize> {
     Numbers(&'a [T]),
+    Words(Vec<u32>),
     Sums(&'a Results<T, D>, usize),
 }
 
@@ -19,6 +20,7 @@ impl<T: Real, const D: usize> OwnPart<'_, T, D> {
     fn put(&self, to: &mut Vec<u8>) {
         match self {
             Self::Numbers(own) => put_numbers(own, to),
+            Self::Words(own) => put_numbers(own, to),
             Self::Sums(own, chunks) => own.put(*chunks, to),
         }
     }
@@ -48,6 +50,15 @@ impl<T: Real, const D: usize> Group<T, D> {
             let own = columns.raw(field);
             parts.push(OwnPart::Numbers(&own[..field.components(D) * count]));
         }
+        let mut ids = self.particles.ids.clone();
+        all.part.number_walls(&mut ids, &all.walls, false);
+        let near = &self.neighborhood;
+        parts.push(OwnPart::Words(ids));
+        parts.push(OwnPart::Numbers(near.listed[..count].as_flattened()));
+        if !near.listed_h.is_empty() {
+            parts.push(OwnPart::Numbers(&near.listed_h));
+        }
+        parts.push(OwnPart::Words(near.lists.counts().to_vec()));
         for (field, column) in work.saved().filter(|own| !own.1.is_empty()) {
             parts.push(OwnPart::Numbers(&column[..field.components(D) * count]));
         }

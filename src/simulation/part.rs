@@ -1,9 +1,9 @@
 //! What a rank has of a group between two list builds: the particles of its chunks, and ghosts that their lists name.
-//! It follows from the lists alone. Ghosts are records that their ranks send before each sweep.
+//! Ghosts are records that their ranks send before each sweep.
 
-use super::neighborhood::Neighborhood;
-use crate::neighbors::{Block, CHUNK};
-use crate::ranks::{Division, Letters, Taken, Team, put_numbers, put_words};
+use super::walls::WallState;
+use crate::neighbors::CHUNK;
+use crate::ranks::{Division, Letters, Taken, Team, put_numbers};
 use crate::scalar::{Real, width};
 use crate::sweep::{Ghosts, Image};
 use std::ops::Range;
@@ -38,104 +38,23 @@ pub(crate) struct Part {
     /// Its own slots among those of the group.
     pub runs: [Range<usize>; 2],
     pub chunks: [Range<usize>; 2],
-    /// Slots of ghosts in the group.
-    pub ghosts: Vec<u32>,
-    /// Images that its lists name, by their numbers in the group, and what they are here.
-    pub images: Vec<u32>,
-    pub shown: Vec<Image>,
-    /// All images of its own particles in the group.
+    /// All images of its own particles.
     pub of_own: Vec<Image>,
     /// Slots here of chunks whose lists name its own particles alone, and of all others.
-    inner_and_outer: [Vec<Range<usize>>; 2],
+    pub inner_and_outer: [Vec<Range<usize>>; 2],
     pub halo: Arc<Halo>,
 }
 
-/// Own slots, those of ghosts, and images behind so many slots.
-fn named(
-    runs: &[Range<usize>; 2],
-    ghosts: &[u32],
-    images: &[u32],
-    slots: usize,
-) -> impl Iterator<Item = usize> {
-    let ghosts = ghosts.iter().map(|&slot| slot as usize);
-    let images = images.iter().map(move |&k| slots + k as usize);
-    runs.iter().cloned().flatten().chain(ghosts).chain(images)
-}
-
-/// Adds a run of slots that begins where the last one ends, or behind it.
-fn add_run(runs: &mut Vec<Range<usize>>, run: Range<usize>) {
-    match runs.last_mut() {
-        Some(last) if last.end == run.start => last.end = run.end,
-        _ => runs.push(run),
-    }
-}
-
 impl Part {
-    /// The part of this rank by the lists of the group, which all ranks ask for at once.
-    pub fn of<T: Real, const D: usize>(
-        team: &Arc<Team>,
-        division: &Division,
-        group: &Neighborhood<T, D>,
-    ) -> Self {
-        let slots = group.listed.len() - group.images.len();
-        let (rank, ranks) = (team.rank(), team.count());
-        let (runs, chunks) = (runs_of::<T>(division, rank, slots), division.of(rank));
-        let mut is_named = vec![false; group.listed.len()];
-        let mut inner_and_outer = [Vec::new(), Vec::new()];
-        let mut next = 0;
-        for chunk in chunks.iter().cloned().flatten() {
-            let mut is_outer = false;
-            for &j in &group.lists.chunks()[chunk].neighbors {
-                is_named[j as usize] = true;
-                is_outer |= !runs.iter().any(|run| run.contains(&(j as usize)));
-            }
-            let size = chunk_slots::<T>();
-            add_run(
-                &mut inner_and_outer[usize::from(is_outer)],
-                next..next + size,
-            );
-            next += size;
-        }
-        let images = (0..group.images.len() as u32).filter(|k| is_named[slots + *k as usize]);
-        let images: Vec<u32> = images.collect();
-        for &k in &images {
-            is_named[group.images[k as usize].source as usize] = true;
-        }
-        for run in &runs {
-            is_named[run.clone()].fill(false);
-        }
-        let (mut ghosts, mut from) = (Vec::new(), vec![0; ranks]);
-        for (other, count) in from.iter_mut().enumerate() {
-            let named = runs_of::<T>(division, other, slots).into_iter().flatten();
-            ghosts.extend(named.filter(|&slot| is_named[slot]).map(|slot| slot as u32));
-            *count = ghosts.len();
-        }
-        for other in (1..ranks).rev() {
-            from[other] -= from[other - 1];
-        }
-        let mut numbers = vec![u32::MAX; group.listed.len()];
-        for (number, own) in named(&runs, &ghosts, &images, slots).enumerate() {
-            numbers[own] = number as u32;
-        }
-        let here = |own: &Image| Image {
-            source: numbers[own.source as usize],
-            ..*own
-        };
-        let shown = images.iter().map(|&k| here(&group.images[k as usize]));
-        let count = runs.iter().map(Range::len).sum();
-        let of_own = group.images.iter().map(here);
-        let of_own = of_own.filter(|own| (own.source as usize) < count);
-        let (shown, of_own) = (shown.collect(), of_own.collect());
-        let halo = Halo::new(team, (&ghosts, from), |slot| numbers[slot as usize]);
+    /// The part of this rank in a group with so many slots, before its lists are made.
+    pub fn of<T: Real>(team: &Arc<Team>, division: &Division, slots: usize) -> Self {
+        let rank = team.rank();
         Self {
-            runs,
-            chunks,
-            ghosts,
-            images,
-            shown,
-            of_own,
-            inner_and_outer,
-            halo: Arc::new(halo),
+            runs: runs_of::<T>(division, rank, slots),
+            chunks: division.of(rank),
+            of_own: Vec::new(),
+            inner_and_outer: [Vec::new(), Vec::new()],
+            halo: Arc::new(Halo::none(team)),
         }
     }
 
@@ -175,31 +94,28 @@ impl Part {
         }
     }
 
-    /// What it has of a block of a group with so many slots.
-    pub fn block(&self, block: &Block, slots: usize) -> Block {
-        let own = if block.slots.start < slots {
-            self.within(&block.slots)
-        } else {
-            let first = self.count() + self.ghosts.len();
-            let before = |slot: usize| {
-                self.images
-                    .partition_point(|&k| (k as usize) < slot - slots)
+    /// Lets particles of walls be known by how far they are from the first slot of the wall here, or in the group.
+    pub fn number_walls<T, const D: usize>(
+        &self,
+        ids: &mut [u32],
+        walls: &[WallState<T, D>],
+        is_here: bool,
+    ) {
+        for wall in walls {
+            let (here, in_group) = (self.at(wall.slots.start), wall.slots.start);
+            let (before, after) = if is_here {
+                (in_group, here)
+            } else {
+                (here, in_group)
             };
-            first + before(block.slots.start)..first + before(block.slots.end)
-        };
-        Block {
-            slots: own,
-            ..block.clone()
+            for id in &mut ids[here..self.at(wall.end)] {
+                *id = *id - before as u32 + after as u32;
+            }
         }
     }
 
-    /// What its lists name, by their numbers in a group with so many slots, in the order of its own numbers.
-    pub fn named(&self, slots: usize) -> impl Iterator<Item = usize> {
-        named(&self.runs, &self.ghosts, &self.images, slots)
-    }
-
-    /// Its own numbers of a column of the group; none of a column that is not there.
-    pub fn of_column<T: Real>(&self, column: &[T], slots: usize) -> Vec<T> {
+    /// Its own of a column of the group; none of a column that is not there.
+    pub fn of_column<V: Copy>(&self, column: &[V], slots: usize) -> Vec<V> {
         let width = column.len().checked_div(slots).unwrap_or(0);
         let mut own = Vec::with_capacity(width * self.count());
         for run in &self.runs {
@@ -220,38 +136,25 @@ pub(crate) struct Halo {
 }
 
 impl Halo {
-    /// Asks the others for ghosts, rank by rank and so many of each, by their slots in the group.
-    fn new(
+    /// That of a rank alone.
+    fn none(team: &Arc<Team>) -> Self {
+        Self {
+            team: team.clone(),
+            sends: Vec::new(),
+            to: vec![0; team.count()],
+            from: vec![0; team.count()],
+        }
+    }
+
+    /// Asks the others for ghosts, rank by rank and so many of each, by their slots in the group; `number` is that of one of its own.
+    pub fn new(
         team: &Arc<Team>,
         (ghosts, from): (&[u32], Vec<usize>),
-        number: impl Fn(u32) -> u32,
+        number: impl Fn(usize) -> usize,
     ) -> Self {
-        let ranks = team.count();
-        let (mut asked, mut counts) = (Vec::new(), vec![0; 8 * ranks]);
-        put_counts(&from, &mut asked);
-        let each = vec![8; ranks];
-        let told = team.exchange(Letters::Each(8), (&asked, &each), (&mut counts, &each));
-        let to: Vec<usize> = counts.chunks_exact(8).map(count_of).collect();
-        asked.clear();
-        put_words(ghosts, &mut asked);
-        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| 4 * n).collect() };
-        let mut wanted = vec![
-            0;
-            if told {
-                4 * to.iter().sum::<usize>()
-            } else {
-                0
-            }
-        ];
-        let slots = Letters::Ghosts(4);
-        let told =
-            told && team.exchange(slots, (&asked, &bytes(&from)), (&mut wanted, &bytes(&to)));
-        let mut sends = Vec::new();
-        if told {
-            let _ = Taken(&wanted).words(wanted.len() / 4, &mut sends);
-        }
+        let (mut sends, to) = team.letters((ghosts, &from), Letters::Ghosts(size_of::<u32>()));
         for slot in &mut sends {
-            *slot = number(*slot);
+            *slot = number(*slot as usize) as u32;
         }
         Self {
             team: team.clone(),
@@ -260,16 +163,6 @@ impl Halo {
             from,
         }
     }
-}
-
-fn put_counts(counts: &[usize], to: &mut Vec<u8>) {
-    for count in counts {
-        crate::ranks::put_number(*count as u64, to);
-    }
-}
-
-fn count_of(bytes: &[u8]) -> usize {
-    Taken(bytes).number().unwrap_or(0) as usize
 }
 
 impl<T: Real> Ghosts<T> for Halo {

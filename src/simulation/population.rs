@@ -74,24 +74,32 @@ impl<T: Real, const D: usize> Particles<T, D> {
         mobile: usize,
         origin: [f64; D],
     ) -> Self {
-        let ids = (0..columns.slots() as u32).collect::<Vec<_>>();
-        let mut slot_of = ids.clone();
-        for body in &bodies {
-            for id in body.slots.end..body.ids.end {
-                slot_of[id] = u32::MAX;
-            }
-        }
-        Self {
+        let ids = (0..columns.slots() as u32).collect();
+        let mut own = Self {
             columns,
             bodies,
             mobile,
             ids,
-            slot_of,
+            slot_of: Vec::new(),
             removed: Passed::default(),
             entered: Passed::default(),
             first_id: 0,
             origin,
             moved: Moves::default(),
+        };
+        own.find_slots(core::iter::empty());
+        own
+    }
+
+    /// Finds the slot of each particle of bodies and of some walls by identities.
+    pub fn find_slots(&mut self, walls: impl Iterator<Item = Range<usize>>) {
+        self.slot_of = (0..self.columns.slots() as u32).collect();
+        for body in &self.bodies {
+            self.slot_of[body.ids.clone()].fill(u32::MAX);
+        }
+        let bodies = self.bodies.iter().map(|body| body.slots.clone());
+        for slot in bodies.chain(walls).flatten() {
+            self.slot_of[self.ids[slot] as usize] = slot as u32;
         }
     }
 

@@ -54,8 +54,9 @@ impl Ranks for Alone {
 /// What a step took.
 struct Seen {
     price: RankPrice,
-    /// List builds in it.
+    /// List builds in it, and sorts.
     builds: u64,
+    sorts: u64,
     /// Whether all particles were brought together for their stored energy.
     is_looked_at: bool,
 }
@@ -147,19 +148,17 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         }
         let own_alone = self.is_parted() || (self.steps_parts && self.may_part());
         let plain = mean(if plain.is_empty() { &building } else { &plain });
-        for group in &mut self.state.groups {
-            group.neighborhood.outdate();
-        }
-        let built = self.see_step(team)?;
-        let after = self.see_step(team)?;
-        let list_build = if built.builds > 0 && after.builds == 0 {
-            plus(built.price, excess(after.price, plain))
-        } else if built.builds > 0 {
-            built.price
+        let built = self.see_list_build(team, false)?;
+        let sorted = self.see_list_build(team, true)?;
+        // Neighbours of a reference stay.
+        let list_build = if built.builds > 0 { built.price } else { plain };
+        let sort = if D > 1 && sorted.builds > 0 {
+            excess(sorted.price, list_build)
         } else {
-            // Neighbours of a reference stay.
-            plain
+            RankPrice::default()
         };
+        let builds = building.iter().map(|own| own.builds).sum::<u64>();
+        let sorts = building.iter().map(|own| own.sorts).sum::<u64>();
         let looks = self.state.stores.accounts.iter().any(Option::is_some);
         let gather_all = self.see(team, |own| {
             own.bring_together();
@@ -178,14 +177,34 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             own_alone,
             step: plain,
             list_build,
+            sort,
             gather_all: gather_all.price,
             list_builds,
+            // As often as was seen, and always where it was not.
+            sorts: if own_alone && builds > 0 {
+                sorts as f64 / builds as f64
+            } else {
+                1.0
+            },
             gathers_of_all: if own_alone && looks {
                 1.0 / EVERY as f64
             } else {
                 0.0
             },
         })
+    }
+
+    /// What a step with a list build takes that sorts particles, where they can be sorted, or does not.
+    fn see_list_build(&mut self, team: &Team, sorts: bool) -> Result<Seen> {
+        loop {
+            for group in &mut self.state.groups {
+                group.neighborhood.outdate(sorts);
+            }
+            let seen = self.see_step(team)?;
+            if !seen.is_looked_at {
+                return Ok(seen);
+            }
+        }
     }
 
     fn see_step(&mut self, team: &Team) -> Result<Seen> {
@@ -201,8 +220,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let (taken, spent) = (start.elapsed().as_secs_f64(), self.phases().since(&phases));
         let builds = self.list_builds() - builds;
         let swept = spent.lists + spent.pairs + spent.walls + spent.work;
-        // Between list builds ranks do everything for their own particles alone.
-        let divided = if self.is_parted() && builds == 0 {
+        // Ranks that step their own particles do everything for these alone.
+        let divided = if self.is_parted() {
             taken
         } else {
             swept.as_secs_f64().min(taken)
@@ -221,6 +240,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 undivided: taken - divided,
             },
             builds,
+            sorts: now.travelled - traffic.travelled,
             is_looked_at: self.state.steps.is_multiple_of(EVERY),
         })
     }

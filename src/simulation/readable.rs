@@ -84,7 +84,7 @@ impl<T: Real, const D: usize> Readable<T, D> {
     pub fn bring_together(&mut self) {
         self.withdraw();
         if self.own.is_parted() {
-            Arc::make_mut(&mut self.own).bring_together(Lists::Kept, None);
+            Arc::make_mut(&mut self.own).bring_together(Lists::Made, None);
         }
     }
 }
@@ -99,7 +99,7 @@ impl<T: Real, const D: usize> Deref for Readable<T, D> {
         self.all.get_or_init(|| {
             let mut all = None;
             // No step starts from it, so it needs no lists. Other threads make it: this one would take up tasks that wait for it.
-            apart(|| all = Some(offer.ask(&self.own, Lists::Elsewhere)));
+            apart(|| all = Some(offer.ask(&self.own, Lists::None)));
             Box::new(all.expect("it was made"))
         })
     }
@@ -119,7 +119,7 @@ impl<T: Real, const D: usize> DerefMut for Readable<T, D> {
 impl<T: Real, const D: usize> Clone for Readable<T, D> {
     fn clone(&self) -> Self {
         Self::new(match &self.offer {
-            Some(offer) => offer.ask(&self.own, Lists::Kept),
+            Some(offer) => offer.ask(&self.own, Lists::Made),
             None => State::clone(&self.own),
         })
     }

@@ -110,7 +110,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The same, with the rates of an evaluation between steps.
     fn leave_last_step(&mut self) {
         if let Reading::Between(last) = mem::replace(&mut self.shown, Reading::LastStep) {
-            self.state.take_lists(&last);
             drop(last);
             self.watch_events();
             let held = self.follow_clamps(true);
@@ -195,7 +194,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return Cow::Borrowed(last);
         }
         let mut all = last.clone();
-        all.bring_together(Lists::Elsewhere, None);
+        all.bring_together(Lists::None, None);
         Cow::Owned(all)
     }
 

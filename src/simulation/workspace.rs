@@ -88,6 +88,12 @@ impl<T: Real, const D: usize> Workspace<T, D> {
         }
     }
 
+    /// Forgets records, of which lists that are built next have no use.
+    pub fn forget_records(&mut self) {
+        (self.records, self.work_records) = Default::default();
+        self.records_of_rates = false;
+    }
+
     /// Component `k` of the column of accelerations, of particles with these masses.
     #[inline(always)]
     pub fn acceleration(&self, mass: &[T], k: usize) -> T {

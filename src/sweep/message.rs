@@ -116,8 +116,11 @@ impl<T: Real, const D: usize> Results<T, D> {
     /// The sums of the first slots, slot by slot.
     pub(crate) fn numbers(&self, slots: usize) -> Vec<T> {
         let width = self.outputs.width(D);
-        let own = (0..slots).flat_map(|slot| (0..width).map(move |k| (k, slot)));
-        own.map(|(k, slot)| self.number(k, slot)).collect()
+        let mut own = Vec::with_capacity(width * slots);
+        for slot in 0..slots {
+            own.extend((0..width).map(|k| self.number(k, slot)));
+        }
+        own
     }
 
     /// The sums of a run of slots and the forces on some chunks, with room for those of so many slots and chunks.

@@ -13,8 +13,8 @@ const BYTES: f64 = 1.5;
 /// The same of gatherings, of which a step has one or two more where something is near.
 const GATHERINGS: f64 = 1.15;
 
-/// Steps and list builds of a run, and, of each step in the mean, gatherings, exchanges and bytes that the rank received.
-fn counted<T: Real, const D: usize>(scene: Scene<T, D>, end: f64) -> [f64; 5] {
+/// Steps, list builds and sorts of a run, and, of each step in the mean, gatherings, exchanges and bytes that the rank received.
+fn counted<T: Real, const D: usize>(scene: Scene<T, D>, end: f64) -> [f64; 6] {
     let mut simulation = scene.build().expect("the scene");
     let (before, builds) = (simulation.traffic(), simulation.list_builds());
     let before = before.expect("ranks");
@@ -24,6 +24,7 @@ fn counted<T: Real, const D: usize>(scene: Scene<T, D>, end: f64) -> [f64; 5] {
     [
         steps,
         (simulation.list_builds() - builds) as f64,
+        (after.travelled - before.travelled) as f64,
         (after.gathered - before.gathered) as f64 / steps,
         (after.exchanged - before.exchanged) as f64 / steps,
         (after.received - before.received) as f64 / steps,
@@ -51,19 +52,21 @@ fn as_predicted<T: Real, const D: usize>(
             let program = |ranks: Arc<dyn Ranks>| counted(scene().on_ranks(ranks), end);
             let all = ranks::in_threads(count, 1, program).expect("threads");
             let mean = |k: usize| all.iter().map(|own| own[k]).sum::<f64>() / count as f64;
-            let [taken, builds] = [mean(0), mean(1)];
+            let [taken, builds, sorts] = [mean(0), mean(1), mean(2)];
             assert_eq!(taken as usize, steps, "{name}");
-            // How often lists are built is the subject of another test, and all come together once in so many steps.
+            // How often lists are built is the subject of another test, and all come together once in so many steps. A new cut is
+            // a sort of another kind.
             model.list_builds = builds / taken;
+            model.sorts = (sorts / builds.max(1.0)).min(1.0);
             model.gathers_of_all = (model.gathers_of_all * taken).floor() / taken;
             let cost = model.on(count, &Network::default()).expect("a cost");
             let pairs = [
-                ("gatherings", cost.gathered, mean(2), GATHERINGS),
-                ("exchanges", cost.exchanged, mean(3), GATHERINGS),
-                ("bytes", cost.received, mean(4), BYTES),
+                ("gatherings", cost.gathered, mean(3), GATHERINGS),
+                ("exchanges", cost.exchanged, mean(4), GATHERINGS),
+                ("bytes", cost.received, mean(5), BYTES),
             ];
             println!(
-                "{name} on {count}: {builds} builds in {taken} steps, {:.0} ghosts",
+                "{name} on {count}: {builds} builds in {taken} steps, {sorts} sorts, {:.0} ghosts",
                 cost.ghosts
             );
             for (what, predicted, counted, most) in pairs {

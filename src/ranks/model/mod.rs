@@ -134,9 +134,11 @@ impl RankPrice {
 ///     }],
 ///     own_alone: true,
 ///     step: RankPrice { gathered: 25.0, exchanged: 2.0, each: 500.0, of_ghost: 160.0, divided: 0.67, ..RankPrice::default() },
-///     list_build: RankPrice { gathered: 30.0, exchanged: 4.0, each: 600.0, parts: 3e7, of_ghost: 160.0, divided: 0.8, undivided: 0.2, ..RankPrice::default() },
+///     list_build: RankPrice { gathered: 45.0, exchanged: 7.0, each: 1e3, parts: 8e3, of_ghost: 180.0, divided: 1.0, ..RankPrice::default() },
+///     sort: RankPrice { gathered: 10.0, exchanged: 6.0, to_each: 2e3, divided: 0.1, ..RankPrice::default() },
 ///     gather_all: RankPrice { gathered: 2.0, each: 16.0, parts: 3e8, ..RankPrice::default() },
 ///     list_builds: 0.04,
+///     sorts: 0.3,
 ///     gathers_of_all: 0.0,
 /// };
 /// let [one, many] = [1, 64].map(|ranks| water.on(ranks, &Network::default()));
@@ -159,12 +161,16 @@ pub struct RankModel {
     pub own_alone: bool,
     /// A step without a list build.
     pub step: RankPrice,
-    /// A step with a list build, and what the next step takes more than others.
+    /// A step with a list build that does not sort particles.
     pub list_build: RankPrice,
+    /// What sorting particles along the space-filling curve adds to it.
+    pub sort: RankPrice,
     /// Bringing all particles together, as at the end of a run and where an observer is due.
     pub gather_all: RankPrice,
     /// List builds a step, at most one.
     pub list_builds: f64,
+    /// Sorts a list build, at most one.
+    pub sorts: f64,
     /// How often a step all particles are brought together beside list builds.
     pub gathers_of_all: f64,
 }
@@ -262,6 +268,7 @@ impl RankModel {
                 .collect(),
             step: own.step.of_more(times),
             list_build: own.list_build.of_more(times),
+            sort: own.sort.of_more(times),
             gather_all: own.gather_all.of_more(times),
             ..own
         })
@@ -279,6 +286,7 @@ impl RankModel {
         let weighed = [
             (1.0 - builds, &self.step),
             (builds, &self.list_build),
+            (builds * self.sorts, &self.sort),
             (self.gathers_of_all, &self.gather_all),
         ];
         let mean = |of: fn(&RankPrice) -> f64| -> f64 {
@@ -291,12 +299,13 @@ impl RankModel {
         let undivided = mean(|own| own.undivided);
         let of_all = self.parts.iter().map(|parts| parts.ghosts(ranks));
         // Where every rank has all particles there are none.
-        let ghosts: f64 = of_all.filter(|_| self.own_alone).sum();
+        let ghosts = of_all.filter(|_| self.own_alone).fold(0.0, |a, b| a + b);
         let others = 1.0 - 1.0 / count;
         let votes = (count - 1.0) * mean(|own| own.each) + count * mean(|own| own.to_each);
         let of_ghosts = ghosts * mean(|own| own.of_ghost);
         let sums = (1.0 - builds) * others * self.step.parts;
-        let listing = builds * others * self.list_build.parts;
+        let listing = self.list_build.parts + self.sorts * self.sort.parts;
+        let listing = builds * others * listing;
         let looking = self.gathers_of_all * others * self.gather_all.parts;
         // One rank waits for nobody.
         let waits = if ranks > 1 { network.latency } else { 0.0 };
@@ -316,7 +325,7 @@ impl RankModel {
                 gathered * waits * count.log2() + travel(votes),
             ),
             line("sums of all particles", sums, travel(sums)),
-            line("list builds: what all ranks get", listing, travel(listing)),
+            line("list builds: what chunks cost", listing, travel(listing)),
             line(
                 "all particles, for what is looked at",
                 looking,
@@ -359,11 +368,23 @@ impl RankModel {
                 return Err(refused(what, value, "must be positive and finite"));
             }
         }
-        if !(0.0..=1.0).contains(&self.list_builds) {
-            let must_be = "must be between zero and one a step";
-            return Err(refused("list builds", self.list_builds, must_be));
+        for (what, value, must_be) in [
+            (
+                "list builds",
+                self.list_builds,
+                "must be between zero and one a step",
+            ),
+            (
+                "sorts",
+                self.sorts,
+                "must be between zero and one a list build",
+            ),
+        ] {
+            if !(0.0..=1.0).contains(&value) {
+                return Err(refused(what, value, must_be));
+            }
         }
-        let prices = [&self.step, &self.list_build, &self.gather_all];
+        let prices = [&self.step, &self.list_build, &self.sort, &self.gather_all];
         let own = [
             ("bytes of the scene", self.bytes),
             ("gathers of all particles a step", self.gathers_of_all),

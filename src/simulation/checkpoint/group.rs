@@ -48,6 +48,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             // Of a step under way.
             kept_times: _,
             given: _,
+            joins_given: _,
         } = self;
         let slots = particles.columns.slots();
         put_particles(particles, scheme, name, file);
