@@ -197,26 +197,8 @@ impl ClusterLists {
         self.rebuild_some(input, core::slice::from_ref(&(0..chunks)));
     }
 
-    /// Finds the neighbours of the clusters of some runs of chunks, and leaves the lists of all others.
-    pub(crate) fn rebuild_some<T: Real, const D: usize>(
-        &mut self,
-        input: &SearchInput<'_, T, D>,
-        runs: &[Range<usize>],
-    ) {
-        self.rebuild_among(input, &[], runs);
-    }
-
-    /// Finds the neighbours of all clusters that are here, where each block has other particles elsewhere.
-    pub(crate) fn rebuild_local<T: Real, const D: usize>(
-        &mut self,
-        input: &SearchInput<'_, T, D>,
-        blocks: &[LocalBlock<D>],
-    ) {
-        let chunks = (input.slots / input.width).div_ceil(CHUNK);
-        self.rebuild_among(input, blocks, core::slice::from_ref(&(0..chunks)));
-    }
-
-    fn rebuild_among<T: Real, const D: usize>(
+    /// Finds the neighbours of the clusters of some runs of chunks, where blocks may have other particles elsewhere.
+    pub(super) fn rebuild_among<T: Real, const D: usize>(
         &mut self,
         input: &SearchInput<'_, T, D>,
         local: &[LocalBlock<D>],

@@ -1,8 +1,10 @@
 //! Lists of some chunks alone, as a rank has them, and what it says of them to the others: how many entries its clusters have.
 //! Lists follow from positions, so whoever has these makes those that it lacks.
 
-use super::clusters::{CHUNK, ChunkList, ClusterLists};
+use super::clusters::{CHUNK, ChunkList, ClusterLists, SearchInput};
+use super::sieve::LocalBlock;
 use crate::ranks::{Taken, put_numbers};
+use crate::scalar::Real;
 use std::ops::Range;
 
 /// The cost of a cluster without the entries of its list, in entries.
@@ -14,6 +16,25 @@ impl ClusterLists {
         let mut chunks = Vec::new();
         chunks.resize_with(counts.len().div_ceil(CHUNK), ChunkList::default);
         Self { chunks, counts }
+    }
+
+    /// Finds the neighbours of the clusters of some runs of chunks, and leaves the lists of all others.
+    pub(crate) fn rebuild_some<T: Real, const D: usize>(
+        &mut self,
+        input: &SearchInput<'_, T, D>,
+        runs: &[Range<usize>],
+    ) {
+        self.rebuild_among(input, &[], runs);
+    }
+
+    /// Finds the neighbours of all clusters that are here, where each block has other particles elsewhere.
+    pub(crate) fn rebuild_local<T: Real, const D: usize>(
+        &mut self,
+        input: &SearchInput<'_, T, D>,
+        blocks: &[LocalBlock<D>],
+    ) {
+        let chunks = (input.slots / input.width).div_ceil(CHUNK);
+        self.rebuild_among(input, blocks, core::slice::from_ref(&(0..chunks)));
     }
 
     /// Entries of each cluster.
