@@ -27,13 +27,6 @@ unsafe impl Plain for u32 {
 }
 
 // SAFETY: as of `u32`.
-unsafe impl Plain for u8 {
-    fn empty() -> Self {
-        0
-    }
-}
-
-// SAFETY: as of `u32`.
 unsafe impl Plain for u64 {
     fn empty() -> Self {
         0

@@ -33,17 +33,25 @@ impl Team {
         from: &[usize],
         letters: Letters,
     ) -> Option<Vec<V>> {
-        let bytes = |counts: &[usize]| -> Vec<usize> {
-            counts.iter().map(|count| count * size_of::<V>()).collect()
-        };
-        let mut message = Vec::with_capacity(size_of_val(own));
+        let (mut message, mut numbers) = (Vec::with_capacity(size_of_val(own)), Vec::new());
         put_numbers(own, &mut message);
-        let (to, sizes) = (bytes(to), bytes(from));
-        let mut come = vec![0; sizes.iter().sum()];
-        let is_come = self.exchange(letters, (&message, &to), (&mut come, &sizes));
-        let mut numbers = Vec::new();
-        is_come.then(|| Taken(&come).more(from.iter().sum(), &mut numbers))??;
+        let come = self.post_bytes((&message, to), from, (size_of::<V>(), letters))?;
+        Taken(&come).more(from.iter().sum(), &mut numbers)?;
         Some(numbers)
+    }
+
+    /// The same of what takes so many bytes each.
+    pub fn post_bytes(
+        &self,
+        (own, to): (&[u8], &[usize]),
+        from: &[usize],
+        (each, letters): (usize, Letters),
+    ) -> Option<Vec<u8>> {
+        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| each * n).collect() };
+        let (to, from) = (bytes(to), bytes(from));
+        let mut come = vec![0; from.iter().sum()];
+        self.exchange(letters, (own, &to), (&mut come, &from))
+            .then_some(come)
     }
 }
 

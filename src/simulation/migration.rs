@@ -1,5 +1,5 @@
 //! The way of particles to other ranks at a list build: each number goes from the rank that has it to the one that gets it.
-//! Who goes where is told by one number of each, by which all particles of the group are in order.
+//! Each is told by its place in the order of all, by which those that come find theirs.
 
 use super::group::Group;
 use crate::ranks::{Letters, Plain, Taken, Team, put_numbers};
@@ -85,14 +85,13 @@ impl Route {
         }
         let widths = there().map(|own| own.1);
         let each = size_of::<u32>() + widths.sum::<usize>() * size_of::<T>();
-        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| each * n).collect() };
-        let (to, from) = (bytes(&self.to), bytes(&self.from));
-        let come = self.team.post((&sent, &to), &from, Letters::Moved);
+        let kind = (each, Letters::Moved);
+        let come = (self.team).post_bytes((&sent, &self.to), &self.from, kind);
         // Nothing is read of what comes where a rank has failed.
-        let come = come.unwrap_or_else(|| vec![0; from.iter().sum()]);
+        let come = come.unwrap_or_else(|| vec![0; each * self.from.iter().sum::<usize>()]);
         let mut rest = &come[..];
-        let mut letters: Vec<Taken<'_>> = (from.iter())
-            .map(|size| Taken(rest.split_off(..*size).unwrap_or_default()))
+        let mut letters: Vec<Taken<'_>> = (self.from.iter())
+            .map(|count| Taken(rest.split_off(..each * count).unwrap_or_default()))
             .collect();
         let ids = self.arrange(ids, 1, &mut letters);
         let column = |(own, width): (Vec<T>, usize)| {

@@ -238,9 +238,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         }
         let widths = D + usize::from(!self.listed_h.is_empty());
         let each = size_of::<u32>() + widths * size_of::<T>();
-        let bytes = |counts: &[usize]| -> Vec<usize> { counts.iter().map(|n| each * n).collect() };
-        let (to, sizes) = (bytes(&to), bytes(&from));
-        let come = team.post((&letters, &to), &sizes, Letters::Ghosts(each));
+        let come = team.post_bytes((&letters, &to), &from, (each, Letters::Ghosts(each)));
         let mut others = Candidates {
             slots: Vec::new(),
             places: Vec::new(),
