@@ -98,7 +98,7 @@ impl<T: Real, const D: usize> Neighborhood<T, D> {
         self.support * largest.max(self.smoothing_length) + self.skin
     }
 
-    /// Makes the lists and the order of particles outdated, for a rehearsal, with the skin that they have.
+    /// Makes the lists outdated, for a rehearsal, with the skin that they have; the next list build sorts particles or does not.
     pub fn outdate(&mut self, sort: bool) {
         self.sorted_entries = if sort { 0 } else { usize::MAX };
         self.served = u32::midpoint(LASTING[0], LASTING[1]);

@@ -63,7 +63,8 @@ struct Seen {
 
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// What a step of this scene gives and takes on ranks: [`RankModel::on`] predicts from it the time, the messages and the memory of
-    /// a step on any number of ranks. List builds a step are those of [`expected_work`](Self::expected_work) until `end` \[s\].
+    /// a step on any number of ranks. List builds a step are those of [`expected_work`](Self::expected_work) until `end` \[s\]. They sort
+    /// as often as those did that were rehearsed, and always where none was.
     ///
     /// It rehearses some steps on one rank, counts what that gives, and takes them back: nothing of what comes is changed. Times are
     /// those of this process with its threads. The state is held twice meanwhile. On ranks all call it.
