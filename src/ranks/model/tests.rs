@@ -123,7 +123,7 @@ fn water(particles: f64, cores: f64) -> RankModel {
             ..RankPrice::default()
         },
         list_builds: 0.05,
-        sorts: 0.4,
+        sorts: 0.1,
         gathers_of_all: 0.0,
     };
     million.of_particles(particles).expect("particles")
@@ -139,15 +139,15 @@ fn a_step_takes_what_its_parts_take() {
     let cost = water(8e6, 1.0).on(8, &network).expect("a cost");
     let ghosts = 103.0_f64.powi(3) - 1e6;
     assert_relative_eq!(cost.ghosts, ghosts, max_relative = 1e-12);
-    let each = 0.95 * 1700.0 + 0.05 * (4300.0 + 0.4 * 270.0);
-    let votes = 7.0 * each + 8.0 * 0.05 * (8.0 + 0.4 * 3100.0);
+    let each = 0.95 * 1700.0 + 0.05 * (4300.0 + 0.1 * 270.0);
+    let votes = 7.0 * each + 8.0 * 0.05 * (8.0 + 0.1 * 3100.0);
     let of_chunks = 0.05 * 8e3 * 8.0 * 7.0 / 8.0;
     let bytes = ghosts * (0.95 * 216.0 + 0.05 * 248.0) + votes + of_chunks;
     assert_relative_eq!(cost.received, bytes, max_relative = 1e-12);
     let share = (8e6_f64 / 512.0 / 8.0).ceil() / 15_625.0;
-    let work = 0.95 * 0.46 + 0.05 * (0.96 + 0.4 * 0.19);
-    let gathered = 0.95 * 19.0 + 0.05 * (33.0 + 0.4 * 13.0);
-    let exchanged = 0.95 * 3.0 + 0.05 * (7.0 + 0.4 * 7.0);
+    let work = 0.95 * 0.46 + 0.05 * (0.96 + 0.1 * 0.19);
+    let gathered = 0.95 * 19.0 + 0.05 * (33.0 + 0.1 * 13.0);
+    let exchanged = 0.95 * 3.0 + 0.05 * (7.0 + 0.1 * 7.0);
     let waiting = 1e-5 * (3.0 * gathered + exchanged);
     assert_relative_eq!(
         cost.step,
@@ -156,7 +156,7 @@ fn a_step_takes_what_its_parts_take() {
     );
     // Alone it has neither ghosts nor messages of others, and letters to itself.
     let alone = water(8e6, 1.0).on(1, &network).expect("a cost");
-    let letters = 0.05 * (8.0 + 0.4 * 3100.0) / 1e9;
+    let letters = 0.05 * (8.0 + 0.1 * 3100.0) / 1e9;
     assert_relative_eq!(alone.step, 8.0 * work + letters, max_relative = 1e-12);
 }
 
@@ -216,6 +216,9 @@ fn wrong_numbers_are_refused_by_name() {
     let mut wrong = model.clone();
     wrong.list_builds = 1.5;
     assert!(text(wrong.on(2, &network)).contains("list builds"));
+    let mut wrong = model.clone();
+    wrong.sorts = -0.5;
+    assert!(text(wrong.on(2, &network)).contains("sorts"));
     let mut wrong = model.clone();
     wrong.parts[0].sides[1] = f64::INFINITY;
     assert!(text(wrong.on(2, &network)).contains("side of a part"));
