@@ -3,6 +3,7 @@
 
 use super::hilbert::hilbert_index;
 use crate::collective::{Corners, Join};
+use crate::parallel::{GRAIN, cut, for_each};
 use crate::scalar::Real;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -122,6 +123,18 @@ impl<const D: usize> Grid<D> {
     #[must_use]
     pub fn order<T: Real>(&self, point: &[T; D]) -> u64 {
         hilbert_index(self.cell(point), self.bits())
+    }
+
+    /// Those of all points.
+    #[must_use]
+    pub fn orders<T: Real>(&self, points: &[[T; D]]) -> Vec<u64> {
+        let mut all = vec![0; points.len()];
+        for_each(cut(&mut all, GRAIN), |piece, own| {
+            for (order, x) in own.iter_mut().zip(&points[piece * GRAIN..]) {
+                *order = self.order(x);
+            }
+        });
+        all
     }
 
     fn cells(&self) -> usize {

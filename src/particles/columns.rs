@@ -30,6 +30,15 @@ impl<T: Real, const D: usize> Columns<T, D> {
         columns
     }
 
+    /// Columns that have no numbers yet.
+    pub(crate) fn without_numbers(fields: Fields, slots: usize) -> Self {
+        Self {
+            data: vec![Vec::new(); Fields::PLACES + 1],
+            fields,
+            slots,
+        }
+    }
+
     /// Number of slots, repeats included.
     #[must_use]
     pub fn slots(&self) -> usize {

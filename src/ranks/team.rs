@@ -57,6 +57,15 @@ pub(crate) struct Stamp {
     pub motion: u64,
 }
 
+impl Stamp {
+    /// The sum of the last digits of some numbers, few enough that no sum of those of all particles is too large: of other numbers it
+    /// is another.
+    pub fn digits(numbers: impl IntoIterator<Item = f64>) -> u64 {
+        let digits = |own: f64| (own.to_bits() ^ own.to_bits() >> 32) & 0xffff;
+        numbers.into_iter().map(digits).sum()
+    }
+}
+
 /// The ranks of a simulation, as one of them sees them.
 #[derive(Debug)]
 pub(crate) struct Team {

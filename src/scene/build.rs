@@ -1,12 +1,14 @@
 //! From a scene to a simulation: checked, laid out and evaluated once, or gone on with from a checkpoint.
 
-use super::{Part, Scene};
+use super::plan::Plan;
+use super::{Body, Part, Scene};
+use crate::collective::over;
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
 use crate::origin::middle;
 #[cfg(feature = "checkpoint")]
 use crate::output::checkpoint::Checkpoint;
-use crate::ranks::Team;
+use crate::ranks::{Stamp, Team};
 use crate::scalar::Real;
 #[cfg(feature = "checkpoint")]
 use crate::simulation::{Change, Changes, Difference, RARE, differences};
@@ -82,10 +84,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
 
     fn built(self, team: Option<Arc<Team>>) -> Result<Simulation<T, D>> {
         let fixed = self.control.fixed;
-        let mut simulation = self.lay_out(None)?.on(team);
+        let mut simulation = self.lay_out(None, team, true)?;
         simulation.hold_velocities();
         simulation.take_references();
-        let problems = simulation.isolated();
+        let problems = simulation.problems_of_all(Simulation::isolated);
         if !problems.is_empty() {
             return Err(Error::Build(BuildError { problems }));
         }
@@ -172,7 +174,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         // Walls that are elsewhere would move the place from which columns count.
         let origin = file.get_array("origin").ok();
         let origin = origin.filter(|_| changes.has(Change::Walls));
-        let simulation = self.lay_out(origin)?.on(team);
+        let simulation = self.lay_out(origin, team, false)?;
         simulation.resumed(path, &file, changes)
     }
 
@@ -187,15 +189,28 @@ impl<T: Real, const D: usize> Scene<T, D> {
         Ok(differences(described, &RARE, &file))
     }
 
-    /// The simulation before anything is summed.
-    fn lay_out(self, origin: Option<[f64; D]>) -> Result<Simulation<T, D>> {
+    /// The simulation before anything is summed, of which ranks lay their own particles out alone where they `part` and the scene may.
+    fn lay_out(
+        self,
+        origin: Option<[f64; D]>,
+        team: Option<Arc<Team>>,
+        part: bool,
+    ) -> Result<Simulation<T, D>> {
         let problems = self.problems();
+        let mut sound = Ok(());
         if !problems.is_empty() {
-            return Err(Error::Build(BuildError { problems }));
+            sound = Err(Error::Build(BuildError { problems }));
+        }
+        match &team {
+            None => sound?,
+            // Ranks that have parts of different scenes would not notice it later.
+            Some(team) => team.agree(Some(self.stamp()), sound)?,
         }
         let domain = self.domain();
         let origin = origin.unwrap_or_else(|| self.origin());
-        let groups: Vec<_> = self.plans().map(|plan| plan.lay_out(origin)).collect();
+        let part = part && self.is_of_neighbors_alone();
+        let lay_out = |plan: Plan<'_, T, D>| plan.lay_out(origin, team.as_ref(), part);
+        let groups: Vec<_> = self.plans().map(lay_out).collect();
         let built = self.places_as_built(&groups);
         let couples = self.couples(&origin);
         let joints = self.joints_of(&groups, &origin);
@@ -212,11 +227,40 @@ impl<T: Real, const D: usize> Scene<T, D> {
         )
         .with_step_ends(self.step_ends)
         .with_events(self.events)
-        .with_joints(joints)?;
+        .with_joints(joints)?
+        .on(team);
         simulation.built = built;
         #[cfg(feature = "checkpoint")]
         let simulation = simulation.of_scene(hashes, values);
         Ok(simulation)
+    }
+
+    /// Whether nothing in it looks at more than a particle and its neighbours, as far as the scene says and not its group.
+    fn is_of_neighbors_alone(&self) -> bool {
+        self.parts.len() == 1
+            && self.couplings.is_empty()
+            && self.clamps.is_empty()
+            && self.rigid.is_empty()
+            && self.joints.is_empty()
+            && self.loads.is_empty()
+            && self.events.is_empty()
+    }
+
+    /// How ranks know that they build the same scene: by the number of its particles, and how these start.
+    fn stamp(&self) -> Stamp {
+        let of_body = |body: &Body<T, D>| {
+            over(0..body.points.len(), |k| {
+                let start = &body.starts[k];
+                let numbers = body.points[k].into_iter().chain(start.velocity);
+                Stamp::digits(numbers.chain([start.density, start.energy]))
+            })
+        };
+        Stamp {
+            steps: u64::from(self.is_of_neighbors_alone()),
+            time: 0.0,
+            particles: self.bodies().map(|body| body.points.len()).sum(),
+            motion: self.bodies().map(of_body).sum(),
+        }
     }
 
     /// Where particles of each group are as built \[m\], by identity, if loads may ask. What enters takes the identities of

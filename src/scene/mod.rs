@@ -84,6 +84,7 @@ mod conversion;
 mod coupled;
 mod event;
 mod exchange;
+mod fill;
 #[cfg(feature = "checkpoint")]
 mod fingerprint;
 mod held;

@@ -6,6 +6,7 @@ use super::{Body, Part, Scene};
 use crate::boundary::{Emitter, Inflow, Inlet, Slip, Wall, boundary_from, motion_from};
 use crate::origin::local;
 use crate::particles::{Columns, Field, Fields};
+use crate::ranks::Team;
 use crate::scalar::{Real, width};
 use crate::scheme::{Scheme, Smoothing};
 use crate::simulation::{BodyState, Exchange, Group, Particles, Spins, Structure, WallState};
@@ -93,8 +94,14 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         all.filter(move |(_, inlet)| own(inlet))
     }
 
-    /// Lays the group out: a column for each field that the scheme or a contact names, and places counted from an origin \[m\].
-    pub fn lay_out(mut self, origin: [f64; D]) -> Group<T, D> {
+    /// Lays the group out: a column for each field that the scheme or a contact names, and places counted from an origin \[m\]. Ranks
+    /// lay their own particles out alone where they `part` and the group may.
+    pub fn lay_out(
+        mut self,
+        origin: [f64; D],
+        team: Option<&Arc<Team>>,
+        part: bool,
+    ) -> Group<T, D> {
         let (emitters, inflows) = self.place_inlets(&origin);
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
@@ -116,32 +123,12 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
             .chain(self.walls.iter().map(|(wall, _)| wall.points.len()))
             .map(|count| count.next_multiple_of(width))
             .sum();
-        let mut columns = Columns::<T, D>::new(fields, slots);
         let mut bodies = Vec::new();
         let mut start = 0;
         for body in self.bodies {
             let own = start..start + body.points.len();
-            let end = (start + self.capacity(body)).next_multiple_of(width);
-            for slot in start..end {
-                let k = (slot - start).min(body.points.len() - 1);
-                let own = (&body.material, body.spacing);
-                let x = local(&body.points[k], &origin);
-                self.scheme
-                    .place(&mut columns, slot, own, x, &body.starts[k]);
-                if let Some(mass) = body.masses.get(k) {
-                    columns.raw_mut(Field::MASS)[slot] = T::from_f64(*mass);
-                }
-                for start in &body.fields {
-                    let width = start.components;
-                    let values = start.values[k * width..(k + 1) * width].iter();
-                    let places = columns.raw_mut(start.field)[slot * width..].iter_mut();
-                    for (place, value) in places.zip(values) {
-                        *place = T::from_f64(*value);
-                    }
-                }
-            }
             let ids = start..start + self.capacity(body);
-            start = end;
+            start = ids.end.next_multiple_of(width);
             bodies.push(BodyState {
                 name: body.name.clone(),
                 material: body.material.clone(),
@@ -155,9 +142,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         for (wall, from) in &self.walls {
             let own = start..start + wall.points.len();
             start = own.end.next_multiple_of(width);
-            for slot in own.start..start {
-                self.place_wall(&mut columns, wall, slot);
-            }
             walls.push(self.wall_state(wall, *from, own, start, &origin));
         }
         let widest = bodies
@@ -170,7 +154,12 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         let boundaries = self.scene.boundaries.iter();
         let boundaries = boundaries.map(|own| boundary_from(own, &origin));
         let mut group = Group::new(
-            Particles::new(columns, bodies, mobile, origin),
+            Particles::new(
+                Columns::without_numbers(fields, slots),
+                bodies,
+                mobile,
+                origin,
+            ),
             walls,
             boundaries.collect(),
             self.scheme.clone(),
@@ -193,6 +182,13 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
         group.exchanges = exchanges;
         group.sub_cycle = self.scene.sub_cycle_of(self.number);
+        if let Some(team) = team {
+            group.share(team);
+        }
+        let parts = part && group.begin_apart(|group, runs| self.fill(group, runs));
+        if !parts {
+            group.particles.columns = self.fill(&group, &[0..slots]);
+        }
         self.scene.hold(self.number, &mut group);
         group
     }
@@ -338,44 +334,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
         self.walls.splice(structures..structures, buffers);
         (emitters, inflows)
-    }
-
-    /// Mass \[kg\] of a wall particle: its volume, filled with the first liquid at rest.
-    fn wall_mass(&self, wall: &Wall<D>) -> f64 {
-        let body = self.bodies.first();
-        let density = body.map_or(0.0, |body| body.material.reference_density());
-        density * wall.spacing.powi(D as i32)
-    }
-
-    /// Gives a wall particle what does not change. It has the density of the first liquid at rest: its
-    /// volume is what the liquid's pressure acts on.
-    fn place_wall(&self, columns: &mut Columns<T, D>, wall: &Wall<D>, slot: usize) {
-        let Some(body) = self.bodies.first() else {
-            return;
-        };
-        let density = body.material.reference_density();
-        let (_, sound_speed) = body.material.state(density, 0.0);
-        let mut set = |field: Field, value: f64| {
-            if let Some(place) = columns.raw_mut(field).get_mut(slot) {
-                *place = T::from_f64(value);
-            }
-        };
-        set(Field::DENSITY, density);
-        set(Field::SOUND_SPEED, sound_speed);
-        set(Field::MASS, self.wall_mass(wall));
-        set(
-            Field::SMOOTHING_LENGTH,
-            self.scheme.h_over_dx * wall.spacing,
-        );
-        // The liquid corrects the gradients; a wall takes them as they are.
-        if let Some(rows) = columns
-            .raw_mut(Field::CORRECTION)
-            .get_mut(slot * D * D..(slot + 1) * D * D)
-        {
-            for d in 0..D {
-                rows[d * (D + 1)] = T::one();
-            }
-        }
     }
 
     /// What every block does to every other: bodies, walls, images of bodies by boundary, and images of

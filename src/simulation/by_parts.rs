@@ -2,6 +2,7 @@
 //! Whatever is seen from outside is seen of all particles.
 
 use super::Simulation;
+use super::divided::Share;
 use super::group::Group;
 use super::own_group::Lists;
 use super::part::Part;
@@ -9,8 +10,9 @@ use super::run_state::State;
 use super::settle::PIECE;
 use super::vote::{Criterion, NO_VOTE, Vote};
 use crate::collective::Join;
-use crate::error::{Error, Result};
+use crate::error::{Error, Problem, Result};
 use crate::once::once;
+use crate::particles::Field;
 use crate::ranks::{Asked, Team};
 use crate::scalar::{Real, width};
 use std::sync::Arc;
@@ -102,6 +104,20 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             && state.groups.iter().all(Group::may_part)
     }
 
+    /// Problems of all particles: where ranks have their own alone and one finds some, all of them come together and find them.
+    pub(crate) fn problems_of_all(&mut self, find: impl Fn(&Self) -> Vec<Problem>) -> Vec<Problem> {
+        let own = find(self);
+        let Some(team) = self.team.clone().filter(|_| self.is_parted()) else {
+            return own;
+        };
+        let [found] = team.largest([own.len() as f64]);
+        if found == 0.0 {
+            return own;
+        }
+        self.bring_together();
+        find(self)
+    }
+
     /// A vote of ranks; one of all particles together where these find what they tell as an error.
     pub(super) fn found(&mut self, vote: impl Fn(&Self) -> Result<Vote>) -> Result<Vote> {
         match vote(self) {
@@ -138,7 +154,8 @@ pub(super) fn told_by_all() -> Error {
 }
 
 impl<T: Real, const D: usize> Group<T, D> {
-    fn may_part(&self) -> bool {
+    /// Whether ranks may have their own particles alone, once all of them have some.
+    pub(super) fn is_of_neighbors_alone(&self) -> bool {
         let walls = &self.walls;
         let settles = self.scheme.program.laws.iter().flatten();
         let settles = settles.into_iter().any(|law| law.repeats().is_some());
@@ -152,7 +169,7 @@ impl<T: Real, const D: usize> Group<T, D> {
             && self.held.is_empty()
             && !self.is_met
             && !self.has_contacts()
-            && !self.has_forces_of_laws()
+            && !self.particles.columns.fields().contains(Field::FORCE)
             // What repeats the last particle of a body is in its cluster, unless some have left.
             && bodies.iter().all(|body| body.end - body.slots.end < width::<T>())
             && walls
@@ -160,10 +177,14 @@ impl<T: Real, const D: usize> Group<T, D> {
                 .all(|wall| wall.structure.is_none() && wall.inflow.is_none())
             // What settles together is cut from the first slot of a body on.
             && (!settles || bodies.iter().all(|body| body.slots.start % PIECE == 0))
-            && (self.share.as_ref()).is_some_and(|share| {
-                !share.team.is_broken()
-                    && share.division().is_full() && share.is_divided(&self.neighborhood.lists)
-            })
+    }
+
+    fn may_part(&self) -> bool {
+        let is_cut = |share: &Share| {
+            share.division().is_full() && share.is_divided(&self.neighborhood.lists)
+        };
+        self.is_of_neighbors_alone()
+            && (self.share.as_ref()).is_some_and(|own| !own.team.is_broken() && is_cut(own))
     }
 
     /// Builds lists in a step of own particles, which go to their next ranks before. Kept states follow.
@@ -174,7 +195,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.joins_given |= transforms.any(|own| own.turns());
         self.re_enter(time);
         self.follow_wraps();
-        self.neighborhood.choose_skin();
+        let first = (self.neighborhood.rebuilds == 0).then_some(time);
         let (Some(all), Some((team, _))) = (&self.all, self.apart()) else {
             return;
         };
@@ -183,7 +204,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.begin_rebuild(time);
         self.work.forget_records();
         if sort {
-            self.sort_own();
+            self.sort_own(first);
         }
         self.neighborhood.remember(&self.particles);
         self.list_own((time, reach));

@@ -25,12 +25,7 @@ const WORTH: f64 = 0.95;
 fn motion_of<T: Real, const D: usize>(group: &Group<T, D>) -> u64 {
     let velocities = group.particles.columns.vectors(Field::VELOCITY);
     over(0..velocities.len(), |slot| {
-        let digits = |v: T| {
-            let bits = v.to_f64().to_bits();
-            // Few enough that no sum of them is too large.
-            (bits ^ bits >> 32) & 0xffff
-        };
-        velocities[slot].into_iter().map(digits).sum::<u64>()
+        Stamp::digits(velocities[slot].map(Real::to_f64))
     })
 }
 
@@ -53,6 +48,13 @@ impl Share {
     pub fn divide<T: Real>(&mut self, lists: &ClusterLists, mobile: usize) {
         let mobile = mobile.div_ceil(CHUNK * width::<T>());
         self.division = Division::new(&lists.costs(), mobile, self.team.count());
+    }
+
+    /// Cuts so many slots, of which the first `mobile` ones move by forces, into runs of as many chunks.
+    pub fn divide_evenly<T: Real>(&mut self, slots: usize, mobile: usize) {
+        let size = CHUNK * width::<T>();
+        let (chunks, mobile) = (slots.div_ceil(size), mobile.div_ceil(size));
+        self.division = Division::new(&vec![1; chunks], mobile, self.team.count());
     }
 
     /// The chunks of all ranks.
@@ -179,13 +181,8 @@ impl Share {
 }
 
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// The same on these ranks, whose loops run on what all of their machines have.
+    /// The same on these ranks.
     pub(crate) fn on(mut self, team: Option<Arc<Team>>) -> Self {
-        for group in &mut self.state.groups {
-            if let Some(team) = &team {
-                group.share(team);
-            }
-        }
         self.team = team;
         self
     }
@@ -212,9 +209,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             particles: if parted { 0 } else { self.particles() },
             motion: if parted {
                 // Particles are elsewhere; loads are functions of the program.
-                let all = own.groups.iter().flat_map(|group| group.gravity);
-                let digits = |a: f64| (a.to_bits() ^ a.to_bits() >> 32) & 0xffff_ffff;
-                all.map(digits).sum()
+                Stamp::digits(own.groups.iter().flat_map(|group| group.gravity))
             } else {
                 own.groups.iter().map(motion_of).sum()
             },
@@ -325,8 +320,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         [packed, start.elapsed().saturating_sub(packed)]
     }
 
-    /// Makes it a group of these ranks.
-    fn share(&mut self, team: &Arc<Team>) {
+    /// Makes it a group of these ranks, whose loops run on what all of their machines have.
+    pub(crate) fn share(&mut self, team: &Arc<Team>) {
         self.share = Some(Share::new(team.clone()));
         let sets = [
             InstructionSet::Baseline,

@@ -215,20 +215,22 @@ impl<T: Real, const D: usize> Group<T, D> {
         let start = Instant::now();
         self.place_walls(time, chord);
         let shift = self.carried_since_listed(time);
-        if self.neighborhood.lists.chunks().is_empty() {
-            self.rebuild(time);
-        } else if !self.scheme.density.keeps_neighbors()
-            && self.neighborhood.outdated(
-                &self.particles,
-                &self.boundaries,
-                (self.is_open(), self.apart().map(|own| &**own.0)),
-                (shift, time),
-            )
+        let is_first = self.neighborhood.lists.chunks().is_empty();
+        if is_first
+            || !self.scheme.density.keeps_neighbors()
+                && self.neighborhood.outdated(
+                    &self.particles,
+                    &self.boundaries,
+                    (self.is_open(), self.apart().map(|own| &**own.0)),
+                    (shift, time),
+                )
         {
+            if !is_first {
+                self.neighborhood.choose_skin();
+            }
             if self.all.is_some() {
                 self.rebuild_apart(time);
             } else {
-                self.neighborhood.choose_skin();
                 self.rebuild(time);
             }
         } else if self.boundaries.iter().any(|b| b.moves()) {

@@ -9,9 +9,10 @@ use super::walls::WallState;
 use super::workspace::{Saved, Workspace};
 use crate::material::eos::GuardCounts;
 use crate::neighbors::ClusterLists;
-use crate::particles::Field;
+use crate::particles::{Columns, Field};
 use crate::ranks::{Asked, Plain, Source, What};
 use crate::scalar::{Real, width};
+use crate::scheme::DensityForm;
 use crate::sweep::{Pass, Records, Results};
 use crate::term::Stage;
 use core::mem::{replace, take};
@@ -95,35 +96,17 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let slots = self.particles.columns.slots();
         let part = Part::of::<T>(&share.team, share.division(), slots);
-        let particles = &mut self.particles;
-        let (ids, _) = (take(&mut particles.ids), take(&mut particles.slot_of));
-        let own = Particles {
-            columns: particles.columns.take_runs(&part.runs),
-            bodies: Vec::new(),
-            mobile: part.at(particles.mobile),
-            ids: part.of_column(&ids, slots),
-            slot_of: Vec::new(),
-            moved: Moves::default(),
-            ..*particles
-        };
+        let own = self.particles.columns.take_runs(&part.runs);
         let whole = take(&mut self.work);
         let near = &mut self.neighborhood;
-        let chunks = near.lists.chunks().len();
-        self.work = part.work(&whole, (slots, chunks), [own.mobile, particles.mobile]);
+        let (chunks, mobile) = (near.lists.chunks().len(), self.particles.mobile);
+        self.work = part.work(&whole, (slots, chunks), [part.at(mobile), mobile]);
         near.listed = Arc::new(part.of_column(&near.listed[..slots], slots));
         near.listed_h.truncate(slots);
         near.listed_h = part.of_column(&near.listed_h, slots);
         let (at, placed) = ((near.listed_time, near.listed_reach), near.placed_time);
-        self.all = Some(Box::new(All {
-            part: Arc::new(part),
-            pairs: whole.spent.pairs,
-            entries: near.lists.entries(),
-            particles: Arc::new(replace(&mut self.particles, own)),
-            walls: take(&mut self.walls),
-            guards: take(&mut self.guards),
-            limited: take(&mut self.limited),
-        }));
-        self.place_own();
+        let entries = near.lists.entries();
+        self.leave(part, own, (whole.spent.pairs, entries));
         let ghosts = self.list_own(at);
         self.neighborhood.place_transforms(&self.boundaries, placed);
         let records = [
@@ -140,6 +123,54 @@ impl<T: Real, const D: usize> Group<T, D> {
             }
         }
         self.show_images_again();
+    }
+
+    /// Begins with the particles of this rank alone, which are those of an even part of the chunks until they are sorted, where each
+    /// rank has some and a step looks at neighbours alone; whether it does.
+    pub(crate) fn begin_apart(
+        &mut self,
+        fill: impl FnOnce(&Self, &[Range<usize>]) -> Columns<T, D>,
+    ) -> bool {
+        // Lam's ends settle until none of all of them changes.
+        let is_alone = self.is_of_neighbors_alone() && self.scheme.density != DensityForm::Lam;
+        let Some(share) = self.share.as_mut().filter(|_| is_alone) else {
+            return false;
+        };
+        let slots = self.particles.columns.slots();
+        share.divide_evenly::<T>(slots, self.particles.mobile);
+        if !share.division().is_full() {
+            return false;
+        }
+        let part = Part::of::<T>(&share.team, share.division(), slots);
+        let own = fill(self, &part.runs);
+        self.leave(part, own, (0, 0));
+        true
+    }
+
+    /// Leaves this rank the particles of a part, whose columns are `own`, where so many pairs were summed and all lists have so many
+    /// entries.
+    fn leave(&mut self, part: Part, own: Columns<T, D>, (pairs, entries): (u64, usize)) {
+        let particles = &mut self.particles;
+        let (ids, _) = (take(&mut particles.ids), take(&mut particles.slot_of));
+        let own = Particles {
+            bodies: Vec::new(),
+            mobile: part.at(particles.mobile),
+            ids: part.of_column(&ids, particles.columns.slots()),
+            slot_of: Vec::new(),
+            moved: Moves::default(),
+            columns: own,
+            ..*particles
+        };
+        self.all = Some(Box::new(All {
+            part: Arc::new(part),
+            pairs,
+            entries,
+            particles: Arc::new(replace(&mut self.particles, own)),
+            walls: take(&mut self.walls),
+            guards: take(&mut self.guards),
+            limited: take(&mut self.limited),
+        }));
+        self.place_own();
     }
 
     /// Places bodies and walls among the slots of this rank.

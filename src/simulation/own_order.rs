@@ -4,8 +4,9 @@
 use super::group::Group;
 use super::migration::{Going, Route};
 use super::part::{Part, chunk_slots, runs_of};
+use crate::boundary::Pose;
 use crate::neighbors::{Grid, corners_of};
-use crate::parallel::{GRAIN, cut, for_each, sort_by_key};
+use crate::parallel::sort_by_key;
 use crate::particles::Field;
 use crate::ranks::{Division, Letters, Taken, Team, What, put_number, put_numbers};
 use crate::scalar::Real;
@@ -96,13 +97,17 @@ fn all_keys(team: &Team, own: u64) -> Option<Vec<u64>> {
 
 impl<T: Real, const D: usize> Group<T, D> {
     /// Sorts every body along the space-filling curve as [`Particles::sort`](super::Particles::sort) does, where each rank has its own
-    /// particles.
-    pub(super) fn sort_own(&mut self) {
+    /// particles; at the first list build, at a time \[s\], so it does walls.
+    pub(super) fn sort_own(&mut self, first: Option<f64>) {
         let Some((team, part)) = self.apart() else {
             return;
         };
-        let team = team.clone();
-        let Some(mut route) = self.order_of_own(&team, part) else {
+        let (team, columns) = (team.clone(), &self.particles.columns);
+        let mut corners = [corners_of(columns.vectors(Field::POSITION))];
+        team.join_corners(&mut corners, &mut []);
+        let spacings = self.particles.bodies.iter().map(|body| body.spacing);
+        let grid = Grid::centred(&corners[0].0, spacings.fold(f64::INFINITY, f64::min));
+        let Some(mut route) = self.order_of_own(&team, part, &grid) else {
             return;
         };
         // What repeats the last of a body goes where that goes, and walls keep their shape.
@@ -116,24 +121,36 @@ impl<T: Real, const D: usize> Group<T, D> {
         let walls = particles.mobile..particles.columns.slots();
         route.sources.extend(walls.map(|slot| slot as u32));
         self.travel(&route, self.particles.mobile);
+        if let Some(time) = first {
+            self.sort_walls(&grid, time);
+        }
     }
 
-    fn order_of_own(&self, team: &Arc<Team>, part: &Part) -> Option<Route> {
+    /// Has the particles of walls that sorting all of them brings to the slots of this rank: where they are every rank knows.
+    fn sort_walls(&mut self, grid: &Grid<D>, time: f64) {
+        let Some(all) = &self.all else {
+            return;
+        };
+        for (wall, own) in all.walls.iter().zip(&self.walls) {
+            let pose = wall.pose(time, None).unwrap_or_else(Pose::rest);
+            let places = wall.places(&pose, &self.boundaries, time);
+            let mut order: Vec<u32> = (0..places.len() as u32).collect();
+            sort_by_key(&mut order, 0, &grid.orders(&places));
+            for slot in own.slots.start..own.end {
+                let at = all.part.slot_in_group(slot) - wall.slots.start;
+                let number = order[at.min(order.len() - 1)];
+                self.particles.ids[slot] = own.slots.start as u32 + number;
+            }
+            own.place(&pose, &mut self.particles, &self.boundaries, time);
+        }
+    }
+
+    fn order_of_own(&self, team: &Arc<Team>, part: &Part, grid: &Grid<D>) -> Option<Route> {
         let (all, share) = (self.all.as_ref()?, self.share.as_ref()?);
         let (particles, columns) = (&self.particles, &self.particles.columns);
         let positions = columns.vectors(Field::POSITION);
-        let mut corners = [corners_of(positions)];
-        team.join_corners(&mut corners, &mut []);
-        let spacings = particles.bodies.iter().map(|body| body.spacing);
-        let grid = Grid::centred(&corners[0].0, spacings.fold(f64::INFINITY, f64::min));
         let sorted = |slots: &Range<usize>| {
-            let own = &positions[slots.clone()];
-            let mut keys = vec![0; own.len()];
-            for_each(cut(&mut keys, GRAIN), |piece, keys| {
-                for (key, x) in keys.iter_mut().zip(&own[piece * GRAIN..]) {
-                    *key = grid.order(x);
-                }
-            });
+            let keys = grid.orders(&positions[slots.clone()]);
             let mut order: Vec<u32> = slots.clone().map(|slot| slot as u32).collect();
             sort_by_key(&mut order, slots.start, &keys);
             let keys = order.iter().map(|slot| keys[*slot as usize - slots.start]);

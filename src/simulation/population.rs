@@ -9,7 +9,7 @@ use crate::error::{Error, Problem, Result};
 use crate::material::Material;
 use crate::neighbors::Grid;
 use crate::origin::global;
-use crate::parallel::{GRAIN, cut, for_each, sort_by_key};
+use crate::parallel::sort_by_key;
 use crate::particles::{Columns, Field};
 use crate::scalar::Real;
 use crate::scheme::{Scheme, Start};
@@ -291,13 +291,7 @@ impl<T: Real, const D: usize> Particles<T, D> {
             .iter()
             .map(|body| (body.slots.clone(), body.end));
         for (slots, end) in bodies.chain(walls.clone()) {
-            let own = &positions[slots.clone()];
-            let mut keys = vec![0; own.len()];
-            for_each(cut(&mut keys, GRAIN), |piece, keys| {
-                for (key, x) in keys.iter_mut().zip(&own[piece * GRAIN..]) {
-                    *key = grid.order(x);
-                }
-            });
+            let keys = grid.orders(&positions[slots.clone()]);
             sort_by_key(&mut order[slots.clone()], slots.start, &keys);
             if let Some(&last) = order[slots.clone()].last() {
                 order[slots.end..end].fill(last);

@@ -152,26 +152,47 @@ impl<T: Real, const D: usize> WallState<T, D> {
         }
         for slot in run {
             let number = self.rest_of(&particles.ids, slot);
-            let [x, own] = at(number, &self.rest[number]);
-            let v: [f64; D] = core::array::from_fn(|d| own[d] + self.sliding[d]);
-            let rounded = x.map(T::from_f64);
-            columns.vectors_mut(Field::POSITION)[slot] = rounded;
-            columns.vectors_mut(Field::VELOCITY)[slot] = v.map(T::from_f64);
+            let [x, residual, v] =
+                self.entered(at(number, &self.rest[number]), boundaries, time);
+            columns.vectors_mut(Field::POSITION)[slot] = x;
+            columns.vectors_mut(Field::VELOCITY)[slot] = v;
             let residuals = columns.vectors_mut(Field::POSITION_RESIDUAL);
-            if let Some(residual) = residuals.get_mut(slot) {
-                *residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
-            }
-            for boundary in boundaries {
-                if let Some(back) = boundary.wrap(&rounded.map(Real::to_f64), time) {
-                    let [x, residual, v] = columns.many_mut([
-                        Field::POSITION,
-                        Field::POSITION_RESIDUAL,
-                        Field::VELOCITY,
-                    ]);
-                    back.to_scalar().re_enter(slot, x, residual, v);
-                }
+            if let Some(own) = residuals.get_mut(slot) {
+                *own = residual;
             }
         }
+    }
+
+    /// Place, its residual and velocity of a particle at a place \[m\] with a velocity \[m/s\], within the boundaries.
+    fn entered(
+        &self,
+        [x, own]: [[f64; D]; 2],
+        boundaries: &[Arc<dyn Boundary<D>>],
+        time: f64,
+    ) -> [[T; D]; 3] {
+        let rounded = x.map(T::from_f64);
+        let mut residual = core::array::from_fn(|d| T::from_f64(x[d] - rounded[d].to_f64()));
+        let mut v = core::array::from_fn(|d| T::from_f64(own[d] + self.sliding[d]));
+        let mut place = rounded;
+        for boundary in boundaries {
+            if let Some(back) = boundary.wrap(&rounded.map(Real::to_f64), time) {
+                let back = back.to_scalar();
+                back.re_enter(0, &mut place, &mut residual, &mut v);
+            }
+        }
+        [place, residual, v]
+    }
+
+    /// Places \[m\] of all of its particles as built, where `pose` brings them.
+    pub fn places(
+        &self,
+        pose: &Pose<D>,
+        boundaries: &[Arc<dyn Boundary<D>>],
+        time: f64,
+    ) -> Vec<[T; D]> {
+        let at = |rest: &[f64; D]| [pose.of(0, rest), pose.of(1, rest)];
+        let place = |rest| self.entered(at(rest), boundaries, time)[0];
+        self.rest.iter().map(place).collect()
     }
 
     /// How far it has gone between two times \[m\], by its first particle.
