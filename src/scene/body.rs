@@ -25,6 +25,7 @@ pub struct Body<T: Real, const D: usize> {
     pub(crate) material: Material<T>,
     pub(crate) points: Vec<[f64; D]>,
     pub(crate) spacing: f64,
+    /// How its particles start: one for all of them, or one for each.
     pub(crate) starts: Vec<Start<D>>,
     pub(crate) slip: Slip,
     pub(crate) shape: Result<(), Flaw>,
@@ -172,13 +173,12 @@ impl<T: Real, const D: usize> Body<T, D> {
             density: material.reference_density(),
             energy: 0.0,
         };
-        let starts = vec![start; points.len()];
         Self {
             name: name.into(),
             material,
             points,
             spacing,
-            starts,
+            starts: vec![start],
             slip: Slip::Free,
             shape: Ok(()),
             fields: Vec::new(),
@@ -200,13 +200,13 @@ impl<T: Real, const D: usize> Body<T, D> {
     /// Starts all particles at a velocity \[m/s\].
     #[must_use]
     pub fn velocity(self, velocity: [f64; D]) -> Self {
-        self.start(|_, start| Start { velocity, ..start })
+        self.all(|start| Start { velocity, ..start })
     }
 
     /// Starts all particles at a density \[kg/m³\]; that of the material if not given.
     #[must_use]
     pub fn density(self, density: f64) -> Self {
-        self.start(|_, start| Start { density, ..start })
+        self.all(|start| Start { density, ..start })
     }
 
     /// Starts all particles at the pressure that a liquid at rest has under `acceleration` g \[m/s²\] with a
@@ -260,16 +260,41 @@ impl<T: Real, const D: usize> Body<T, D> {
     /// Starts all particles at a specific internal energy \[J/kg\]; zero if not given.
     #[must_use]
     pub fn energy(self, energy: f64) -> Self {
-        self.start(|_, start| Start { energy, ..start })
+        self.all(|start| Start { energy, ..start })
     }
 
     /// Starts each particle as a function of its position \[m\] and its start so far.
     #[must_use]
     pub fn start(mut self, start: impl Fn([f64; D], Start<D>) -> Start<D>) -> Self {
-        for (x, own) in self.points.iter().zip(&mut self.starts) {
-            *own = start(*x, *own);
+        let points = self.points.iter().enumerate();
+        let starts = points.map(|(k, x)| start(*x, *self.start_of(k)));
+        self.set_starts(starts.collect());
+        self
+    }
+
+    /// Starts all particles otherwise, by how they start so far.
+    fn all(mut self, start: impl Fn(Start<D>) -> Start<D>) -> Self {
+        for own in &mut self.starts {
+            *own = start(*own);
         }
         self
+    }
+
+    /// How a particle starts.
+    pub(crate) fn start_of(&self, particle: usize) -> &Start<D> {
+        let k = particle.min(self.starts.len() - 1);
+        &self.starts[k]
+    }
+
+    /// Starts each particle as listed: one is kept where all are the same.
+    pub(crate) fn set_starts(&mut self, mut starts: Vec<Start<D>>) {
+        if starts.windows(2).all(|pair| pair[0] == pair[1]) {
+            starts.truncate(1);
+            starts.shrink_to_fit();
+        }
+        if !starts.is_empty() {
+            self.starts = starts;
+        }
     }
 
     /// Starts a field that an effect declares or integrates with a function of position \[m\]; `N` is the number of

@@ -250,7 +250,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     fn stamp(&self) -> Stamp {
         let of_body = |body: &Body<T, D>| {
             over(0..body.points.len(), |k| {
-                let start = &body.starts[k];
+                let start = body.start_of(k);
                 let numbers = body.points[k].into_iter().chain(start.velocity);
                 Stamp::digits(numbers.chain([start.density, start.energy]))
             })

@@ -158,7 +158,8 @@ impl Conversion {
         let places = particles.iter().map(ParticleView::position).collect();
         let mut own = Body::points_of(body, material.clone(), places, spacing);
         let (mut stresses, mut masses, mut flowed) = (Vec::new(), Vec::new(), Vec::new());
-        for (particle, start) in particles.iter().zip(&mut own.starts) {
+        let mut starts = Vec::new();
+        for particle in &particles {
             let (pressure, energy) = (particle.pressure(), particle.energy());
             stresses.push(deviatoric_stress(particle, body)?);
             masses.push(particle.mass());
@@ -172,12 +173,13 @@ impl Conversion {
                 let at = material.eos().density_at(pressure, energy);
                 density = at.unwrap_or(density);
             }
-            *start = Start {
+            starts.push(Start {
                 velocity: particle.velocity(),
                 density,
                 energy,
-            };
+            });
         }
+        own.set_starts(starts);
         own.masses = masses;
         own = own.listed(Hypoelastic::STRESS, &stresses);
         if !flowed.is_empty() {

@@ -35,7 +35,7 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
                 let own = (&body.material, body.spacing);
                 let x = local(&body.points[k], &particles.origin);
                 self.scheme
-                    .place(&mut columns, here, own, x, &body.starts[k]);
+                    .place(&mut columns, here, own, x, body.start_of(k));
                 if let Some(mass) = body.masses.get(k) {
                     columns.raw_mut(Field::MASS)[here] = T::from_f64(*mass);
                 }

@@ -243,20 +243,16 @@ fn describe_body<T: Real, const D: usize>(body: &Body<T, D>, values: &mut Values
     for own in &body.fields {
         hashed(&debug(own.field), &own.values);
     }
-    let same = body.starts.windows(2).all(|pair| pair[0] == pair[1]);
-    match body.starts.first() {
-        Some(start) if same => values.all(&format!("{name}.start"), start),
-        _ => {
-            let numbers = |start: &crate::scheme::Start<D>| {
-                let state = start.velocity.into_iter();
-                state
-                    .chain([start.density, start.energy])
-                    .collect::<Vec<f64>>()
-            };
-            let all: Vec<f64> = body.starts.iter().flat_map(numbers).collect();
-            hashed("starts", &all);
-        }
+    if let [start] = &body.starts[..] {
+        values.all(&format!("{name}.start"), start);
+        return;
     }
+    let numbers = |start: &crate::scheme::Start<D>| -> Vec<f64> {
+        let state = start.velocity.into_iter();
+        state.chain([start.density, start.energy]).collect()
+    };
+    let all: Vec<f64> = body.starts.iter().flat_map(numbers).collect();
+    hashed("starts", &all);
 }
 
 /// All that a scheme says of itself.
@@ -300,7 +296,7 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
         material,
         points,
         spacing,
-        starts,
+        starts: _,
         slip,
         fields,
         masses,
@@ -311,7 +307,7 @@ fn hash_body<T: Real, const D: usize>(body: &Body<T, D>, hash: &mut Hash) {
     } = body;
     text(hash, (name, material, spacing, slip, points.len()));
     hash.numbers(points.as_flattened());
-    for start in starts {
+    for start in (0..points.len()).map(|k| body.start_of(k)) {
         hash.numbers(&start.velocity);
         hash.numbers(&[start.density, start.energy]);
     }

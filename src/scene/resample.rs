@@ -51,15 +51,17 @@ impl<T: Real, const D: usize> Body<T, D> {
         let velocity = from.take(state.field(Field::VELOCITY), D);
         let scalar = |field: Field| from.take(state.field(field), 1);
         let [density, energy] = [Field::DENSITY, Field::ENERGY].map(scalar);
-        for (n, start) in self.starts.iter_mut().enumerate() {
-            *start = Start {
+        let start_of = |n: usize| {
+            let start = self.start_of(n);
+            Start {
                 velocity: velocity.as_ref().map_or(start.velocity, |own| {
                     core::array::from_fn(|d| own[n * D + d])
                 }),
                 density: density.as_ref().map_or(start.density, |own| own[n]),
                 energy: energy.as_ref().map_or(start.energy, |own| own[n]),
-            };
-        }
+            }
+        };
+        self.set_starts((0..self.points.len()).map(start_of).collect());
         Ok(self)
     }
 

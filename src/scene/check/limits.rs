@@ -154,9 +154,10 @@ impl<T: Real, const D: usize> Scene<T, D> {
     /// What the start leaves nothing of.
     pub(super) fn check_outlets(&self, problems: &mut Vec<Problem>) {
         for body in self.bodies().filter(|body| !body.points.is_empty()) {
-            let mut particles = body.points.iter().zip(&body.starts);
-            let taken = particles.all(|(x, start)| {
-                let takes = |outlet: &crate::boundary::Outlet<D>| outlet.takes(x, &start.velocity);
+            let mut particles = body.points.iter().enumerate();
+            let taken = particles.all(|(k, x)| {
+                let v = &body.start_of(k).velocity;
+                let takes = |outlet: &crate::boundary::Outlet<D>| outlet.takes(x, v);
                 self.outlets.iter().any(takes)
             });
             if taken {
