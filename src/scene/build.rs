@@ -236,7 +236,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     }
 
     /// Whether nothing in it looks at more than a particle and its neighbours, as far as the scene says and not its group.
-    fn is_of_neighbors_alone(&self) -> bool {
+    pub(super) fn is_of_neighbors_alone(&self) -> bool {
         self.parts.len() == 1
             && self.couplings.is_empty()
             && self.clamps.is_empty()
@@ -244,6 +244,15 @@ impl<T: Real, const D: usize> Scene<T, D> {
             && self.joints.is_empty()
             && self.loads.is_empty()
             && self.events.is_empty()
+    }
+
+    /// Whether each of so many ranks begins with its own particles.
+    pub(super) fn begins_apart(&self, ranks: usize) -> bool {
+        let begins = |mut plan: Plan<'_, T, D>| {
+            let group = plan.without_numbers(self.origin());
+            group.begins_apart(ranks).is_some()
+        };
+        self.is_of_neighbors_alone() && self.plans().all(begins)
     }
 
     /// How ranks know that they build the same scene: by the number of its particles, and how these start.

@@ -99,6 +99,11 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
 #[cfg(test)]
 mod tests {
     use super::among;
+    use crate::particles::Field;
+    use crate::prelude::{Body, Load, Scene, Wall, catalogue, schemes};
+    use crate::ranks::{Team, in_threads};
+    use crate::scene::Start;
+    use std::sync::Arc;
 
     #[test]
     fn slots_of_runs_have_their_places_in_these() {
@@ -107,5 +112,56 @@ mod tests {
         assert_eq!(all(0..4), [(0, 2), (1, 3)]);
         assert_eq!(all(4..11), [(2, 4), (3, 9), (4, 10)]);
         assert!(all(5..9).is_empty() && all(12..20).is_empty());
+    }
+
+    /// Two bodies of water in a tank, of as many chunks as three ranks need.
+    fn tank() -> Scene<f64, 2> {
+        let water = catalogue::weakly_compressible_water(4.0);
+        let body = |name, x: f64| {
+            let block = Body::block(name, water.clone(), [x, 0.0], [x + 0.3, 0.3], 0.01);
+            block.start(|[x, y], start| Start {
+                velocity: [y, x],
+                ..start
+            })
+        };
+        let closed = [[true; 2]; 2];
+        Scene::new(schemes::weakly_compressible())
+            .body(body("water", 0.0))
+            .body(body("more", 0.3))
+            .wall(Wall::around("tank", [0.0; 2], [0.8, 0.6], 0.01, 4, closed))
+    }
+
+    /// Mass and velocity of each particle that is laid out, behind its slot in the group.
+    fn laid_out(scene: &Scene<f64, 2>, team: Option<&Arc<Team>>) -> Vec<(usize, [f64; 3])> {
+        let plan = scene.plans().next().expect("a plan");
+        let part = scene.is_of_neighbors_alone();
+        let group = plan.lay_out(scene.origin(), team, part);
+        let columns = &group.particles.columns;
+        let of = |slot: usize| {
+            let in_group = group.all.as_ref().map(|own| own.part.slot_in_group(slot));
+            let [u, v] = columns.vectors(Field::VELOCITY)[slot];
+            let mass = columns.raw(Field::MASS)[slot];
+            (in_group.unwrap_or(slot), [mass, u, v])
+        };
+        (0..columns.slots()).map(of).collect()
+    }
+
+    #[test]
+    fn ranks_lay_their_own_particles_out_alone() {
+        let all = in_threads(3, 1, |ranks| {
+            let team = Arc::new(Team::new(ranks));
+            // A load may look at all particles.
+            let loaded = tank().load(Load::acceleration(|_| [0.0; 2]));
+            [tank(), loaded].map(|scene| laid_out(&scene, Some(&team)))
+        });
+        let whole = laid_out(&tank(), None);
+        let mut joined = Vec::new();
+        for [own, every] in all.expect("threads") {
+            assert!(2 * own.len() < whole.len(), "{}", own.len());
+            assert_eq!(every, whole);
+            joined.extend(own);
+        }
+        joined.sort_by_key(|own| own.0);
+        assert_eq!(joined, whole);
     }
 }

@@ -94,14 +94,29 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         all.filter(move |(_, inlet)| own(inlet))
     }
 
-    /// Lays the group out: a column for each field that the scheme or a contact names, and places counted from an origin \[m\]. Ranks
-    /// lay their own particles out alone where they `part` and the group may.
+    /// Lays the group out, with places counted from an origin \[m\]. Ranks lay their own particles out alone where they `part` and the
+    /// group may.
     pub fn lay_out(
         mut self,
         origin: [f64; D],
         team: Option<&Arc<Team>>,
         part: bool,
     ) -> Group<T, D> {
+        let mut group = self.without_numbers(origin);
+        if let Some(team) = team {
+            group.share(team);
+        }
+        let parts = part && group.begin_apart(|group, runs| self.fill(group, runs));
+        if !parts {
+            let all = 0..group.particles.columns.slots();
+            group.particles.columns = self.fill(&group, &[all]);
+        }
+        self.scene.hold(self.number, &mut group);
+        group
+    }
+
+    /// The group before any number of a particle is there, with a column for each field that the scheme or a contact names.
+    pub fn without_numbers(&mut self, origin: [f64; D]) -> Group<T, D> {
         let (emitters, inflows) = self.place_inlets(&origin);
         let interactions = self.interactions();
         let unilateral = interactions.contains(&Interaction::Unilateral);
@@ -182,14 +197,6 @@ impl<T: Real, const D: usize> Plan<'_, T, D> {
         }
         group.exchanges = exchanges;
         group.sub_cycle = self.scene.sub_cycle_of(self.number);
-        if let Some(team) = team {
-            group.share(team);
-        }
-        let parts = part && group.begin_apart(|group, runs| self.fill(group, runs));
-        if !parts {
-            group.particles.columns = self.fill(&group, &[0..slots]);
-        }
-        self.scene.hold(self.number, &mut group);
         group
     }
 

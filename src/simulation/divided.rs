@@ -50,13 +50,6 @@ impl Share {
         self.division = Division::new(&lists.costs(), mobile, self.team.count());
     }
 
-    /// Cuts so many slots, of which the first `mobile` ones move by forces, into runs of as many chunks.
-    pub fn divide_evenly<T: Real>(&mut self, slots: usize, mobile: usize) {
-        let size = CHUNK * width::<T>();
-        let (chunks, mobile) = (slots.div_ceil(size), mobile.div_ceil(size));
-        self.division = Division::new(&vec![1; chunks], mobile, self.team.count());
-    }
-
     /// The chunks of all ranks.
     pub fn division(&self) -> &Division {
         &self.division

@@ -2,7 +2,7 @@
 //! Copies of columns, sums and records: no number changes.
 
 use super::group::Group;
-use super::part::{Part, runs_of};
+use super::part::{Part, chunk_slots, runs_of};
 use super::population::{BodyState, Moves, Particles};
 use super::settle::Settling;
 use super::walls::WallState;
@@ -10,7 +10,7 @@ use super::workspace::{Saved, Workspace};
 use crate::material::eos::GuardCounts;
 use crate::neighbors::ClusterLists;
 use crate::particles::{Columns, Field};
-use crate::ranks::{Asked, Plain, Source, What};
+use crate::ranks::{Asked, Division, Plain, Source, What};
 use crate::scalar::{Real, width};
 use crate::scheme::DensityForm;
 use crate::sweep::{Pass, Records, Results};
@@ -131,20 +131,25 @@ impl<T: Real, const D: usize> Group<T, D> {
         &mut self,
         fill: impl FnOnce(&Self, &[Range<usize>]) -> Columns<T, D>,
     ) -> bool {
-        // Lam's ends settle until none of all of them changes.
-        let is_alone = self.is_of_neighbors_alone() && self.scheme.density != DensityForm::Lam;
-        let Some(share) = self.share.as_mut().filter(|_| is_alone) else {
+        let ranks = self.share.as_ref().map_or(1, |share| share.team.count());
+        let (Some(division), Some(share)) = (self.begins_apart(ranks), &mut self.share) else {
             return false;
         };
-        let slots = self.particles.columns.slots();
-        share.divide_evenly::<T>(slots, self.particles.mobile);
-        if !share.division().is_full() {
-            return false;
-        }
-        let part = Part::of::<T>(&share.team, share.division(), slots);
+        let part = Part::of::<T>(&share.team, &division, self.particles.columns.slots());
+        share.set_division(division);
         let own = fill(self, &part.runs);
         self.leave(part, own, (0, 0));
         true
+    }
+
+    /// How chunks are cut where each of so many ranks begins with its own particles.
+    pub(crate) fn begins_apart(&self, ranks: usize) -> Option<Division> {
+        // Lam's ends settle until none of all of them changes.
+        let is_alone = self.is_of_neighbors_alone() && self.scheme.density != DensityForm::Lam;
+        let [chunks, mobile] = [self.particles.columns.slots(), self.particles.mobile]
+            .map(|slots| slots.div_ceil(chunk_slots::<T>()));
+        let even = Division::new(&vec![1; chunks], mobile, ranks);
+        Some(even).filter(|own| is_alone && own.is_full())
     }
 
     /// Leaves this rank the particles of a part, whose columns are `own`, where so many pairs were summed and all lists have so many

@@ -152,8 +152,7 @@ impl<T: Real, const D: usize> WallState<T, D> {
         }
         for slot in run {
             let number = self.rest_of(&particles.ids, slot);
-            let [x, residual, v] =
-                self.entered(at(number, &self.rest[number]), boundaries, time);
+            let [x, residual, v] = self.entered(at(number, &self.rest[number]), boundaries, time);
             columns.vectors_mut(Field::POSITION)[slot] = x;
             columns.vectors_mut(Field::VELOCITY)[slot] = v;
             let residuals = columns.vectors_mut(Field::POSITION_RESIDUAL);

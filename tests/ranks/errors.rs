@@ -2,6 +2,7 @@
 
 use super::scenes::dam_break;
 use super::watched;
+use meshfree::error::Problem;
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Ranks};
 use std::sync::Arc;
@@ -151,4 +152,27 @@ fn each_rank_gets_the_sums_that_it_does_not_make() {
     assert_eq!(counted[0][0], counted[1][1]);
     // Three sweeps and an end, each with its header.
     assert_eq!(counted[0][2], 8);
+}
+
+#[test]
+fn memory_is_predicted_for_the_part_of_a_rank() {
+    let needed = |problems: &[Problem]| match problems {
+        [Problem::Memory { needed, .. }] => *needed,
+        other => panic!("{other:?}"),
+    };
+    let whole = needed(&dam_break().memory_limit(1).problems());
+    let limit = whole / 2;
+    let all = on_ranks(move |ranks| {
+        let scene = dam_break().memory_limit(limit).on_ranks(ranks);
+        scene.build().map(|_| ())
+    });
+    assert_eq!(all, ["well"; RANKS]);
+    // Where a load may look at them, every rank has all particles.
+    let all = on_ranks(move |ranks| {
+        let load = Load::acceleration(|_| [0.0; 2]);
+        let scene = dam_break().load(load).memory_limit(limit);
+        scene.on_ranks(ranks).build().map(|_| ())
+    });
+    assert!(all[0].contains("memory"), "{all:?}");
+    assert!(all.iter().all(|own| *own == all[0]), "{all:?}");
 }

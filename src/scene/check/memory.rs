@@ -38,7 +38,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
         if particles == 0 || needed.is_nan() {
             return;
         }
-        // Every rank has the whole scene, if only between calls.
+        // A rank that begins with its own particles has of others what the scene says of them.
+        let ranks = self.ranks.as_ref().map_or(1, |ranks| ranks.count());
+        let of_scene = (WHILE_BUILT * particles as f64).min(needed);
+        let needed = if ranks > 1 && self.begins_apart(ranks) {
+            (of_scene + (needed - of_scene) / ranks as f64).ceil()
+        } else {
+            needed
+        };
         let shared = || Some(available()? / self.ranks_here);
         let known = self.memory.or_else(shared);
         let available = known.unwrap_or(u64::MAX);
