@@ -53,8 +53,9 @@
 //!
 //! # Memory
 //!
-//! A rank has its own particles, their lists, and ghosts: particles of others that these name. It has all particles while it builds the
-//! scene, in the second form of a step, and after it has read.
+//! A rank has its own particles, their lists, and ghosts: particles of others that these name. Of all others it has while it builds the
+//! scene the places that bodies have, and particles in the second form of a step, after it has read, and where it resumes. A scene that is
+//! predicted to take more than the part of a rank has is refused on all of them.
 //!
 //! # Files
 //!
@@ -68,7 +69,8 @@
 //!
 //! [`Simulation::cost`](crate::simulation::Simulation::cost) lists the messages of a run, and
 //! [`Simulation::rank_model`](crate::simulation::Simulation::rank_model) predicts them, the time of a step and the memory of a rank for
-//! any number of ranks and any [`Network`]. What limits first is memory, for every rank builds the whole scene.
+//! any number of ranks and any [`Network`]. What limits large scenes first are the places of all particles, which every rank has while
+//! it builds the scene.
 //!
 //! # Errors
 //!

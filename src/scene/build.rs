@@ -250,7 +250,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
     pub(super) fn begins_apart(&self, ranks: usize) -> bool {
         let begins = |mut plan: Plan<'_, T, D>| {
             let group = plan.without_numbers(self.origin());
-            group.begins_apart(ranks).is_some()
+            group.first_division(ranks).is_some()
         };
         self.is_of_neighbors_alone() && self.plans().all(begins)
     }

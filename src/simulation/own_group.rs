@@ -132,7 +132,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         fill: impl FnOnce(&Self, &[Range<usize>]) -> Columns<T, D>,
     ) -> bool {
         let ranks = self.share.as_ref().map_or(1, |share| share.team.count());
-        let (Some(division), Some(share)) = (self.begins_apart(ranks), &mut self.share) else {
+        let (Some(division), Some(share)) = (self.first_division(ranks), &mut self.share) else {
             return false;
         };
         let part = Part::of::<T>(&share.team, &division, self.particles.columns.slots());
@@ -143,7 +143,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// How chunks are cut where each of so many ranks begins with its own particles.
-    pub(crate) fn begins_apart(&self, ranks: usize) -> Option<Division> {
+    pub(crate) fn first_division(&self, ranks: usize) -> Option<Division> {
         // Lam's ends settle until none of all of them changes.
         let is_alone = self.is_of_neighbors_alone() && self.scheme.density != DensityForm::Lam;
         let [chunks, mobile] = [self.particles.columns.slots(), self.particles.mobile]

@@ -1,8 +1,9 @@
-//! Messages and bytes of a step on ranks: predicted by `Simulation::rank_model` from the scene on one process, and counted.
+//! Messages, bytes and memory of a step on ranks: predicted by `Simulation::rank_model` from the scene on one process, and counted.
 //! Nothing here is timed, so no machine changes an outcome.
 
 use super::scenes::{bent_plate, dam_break, periodic_gas, plate_at_wall, rod, tank_in_space};
 use super::watched;
+use meshfree::boundary::Wall;
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Network, Ranks};
 use std::sync::Arc;
@@ -13,8 +14,9 @@ const BYTES: f64 = 1.5;
 /// The same of gatherings, of which a step has one or two more where something is near.
 const GATHERINGS: f64 = 1.15;
 
-/// Steps, list builds and sorts of a run, and, of each step in the mean, gatherings, exchanges and bytes that the rank received.
-fn counted<T: Real, const D: usize>(scene: Scene<T, D>, end: f64) -> [f64; 6] {
+/// Steps, list builds and sorts of a run, of each step in the mean gatherings, exchanges and bytes that the rank received, and bytes that
+/// it holds.
+fn counted<T: Real, const D: usize>(scene: Scene<T, D>, end: f64) -> [f64; 7] {
     let mut simulation = scene.build().expect("the scene");
     let (before, builds) = (simulation.traffic(), simulation.list_builds());
     let before = before.expect("ranks");
@@ -28,6 +30,7 @@ fn counted<T: Real, const D: usize>(scene: Scene<T, D>, end: f64) -> [f64; 6] {
         (after.gathered - before.gathered) as f64 / steps,
         (after.exchanged - before.exchanged) as f64 / steps,
         (after.received - before.received) as f64 / steps,
+        simulation.bytes() as f64,
     ]
 }
 
@@ -60,7 +63,9 @@ fn as_predicted<T: Real, const D: usize>(
             model.sorts = (sorts / builds.max(1.0)).min(1.0);
             model.gathers_of_all = (model.gathers_of_all * taken).floor() / taken;
             let cost = model.on(count, &Network::default()).expect("a cost");
+            let held = cost.memory - (8 * D) as f64 * model.particles;
             let pairs = [
+                ("bytes held", held, mean(6), BYTES),
                 ("gatherings", cost.gathered, mean(3), GATHERINGS),
                 ("exchanges", cost.exchanged, mean(4), GATHERINGS),
                 ("bytes", cost.received, mean(5), BYTES),
@@ -119,6 +124,32 @@ fn messages_of_a_plate_of_fixed_neighbours_are_as_predicted() {
 #[test]
 fn messages_of_sums_of_all_are_as_predicted() {
     as_predicted("plate at a wall", 60, false, plate_at_wall);
+}
+
+#[test]
+fn two_ranks_hold_hardly_more_than_one_process() {
+    let scene = || {
+        let water = catalogue::weakly_compressible_water(4.0);
+        let closed = [[true; 2]; 2];
+        Scene::<f64, 2>::new(schemes::weakly_compressible())
+            .body(Body::block("water", water, [0.0; 2], [1.6, 0.4], 0.005))
+            .wall(Wall::around("tank", [0.0; 2], [2.0, 0.6], 0.005, 4, closed))
+            .acceleration(|_| [0.0, -9.81])
+    };
+    let held = |scene: Scene<f64, 2>| {
+        let mut now = scene.build().expect("the scene");
+        while now.list_builds() < 3 {
+            now.run_until(now.time() + 0.002).expect("a run");
+        }
+        now.bytes()
+    };
+    watched(move || {
+        let plain = held(scene());
+        let all = ranks::in_threads(2, 1, |ranks| held(scene().on_ranks(ranks)));
+        let all: usize = all.expect("threads").into_iter().sum();
+        println!("{} of {plain} bytes", all as f64 / plain as f64);
+        assert!((all as f64) < 1.15 * plain as f64, "{all} of {plain}");
+    });
 }
 
 /// The rehearsal changes no bit and no count, with ranks and without.

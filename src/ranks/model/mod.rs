@@ -144,7 +144,7 @@ impl RankPrice {
 /// let [one, many] = [1, 64].map(|ranks| water.on(ranks, &Network::default()));
 /// let (one, many) = (one?, many?);
 /// assert!(one.step / many.step > 20.0 && one.step / many.step < 64.0);
-/// assert!(many.memory >= 3e8, "every rank has the whole scene between calls");
+/// assert!(many.memory < 0.1 * one.memory);
 /// # Ok::<(), meshfree::error::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -205,7 +205,8 @@ pub struct RankCost {
     pub lines: Vec<RankCostLine>,
     /// The time of a step \[s\].
     pub step: f64,
-    /// Bytes that a rank holds when all particles are together: these, and the lists of its own.
+    /// Bytes that a rank holds: the places of all particles as the scene has them, and its own particles, lists and records, or those of all
+    /// where ranks do not step their own alone. A reading takes the columns of all beside it.
     pub memory: f64,
 }
 
@@ -332,9 +333,9 @@ impl RankModel {
                 travel(looking),
             ),
         ];
-        // Beside these a rank holds of its own part alone what the scene takes, its lists among it.
-        let whole = self.gather_all.parts.min(self.bytes);
-        let whole = if self.own_alone { whole } else { self.bytes };
+        let directions = self.parts.first().map_or(0, |parts| parts.sides.len());
+        let places = (directions * size_of::<f64>()) as f64 * self.particles;
+        let own = if self.own_alone { count } else { 1.0 };
         Ok(RankCost {
             ranks,
             ghosts,
@@ -343,7 +344,7 @@ impl RankModel {
             received: lines.iter().map(|line| line.received).sum(),
             step: lines.iter().map(|line| line.seconds).sum(),
             lines,
-            memory: whole + (self.bytes - whole) / count,
+            memory: places + self.bytes / own,
         })
     }
 
