@@ -44,16 +44,50 @@ pub(super) enum Lists {
 }
 
 /// The way of numbers of all ranks to one.
-struct Gathering<'a> {
+pub(super) struct Gathering<'a> {
     source: Source<'a>,
-    /// Slots of each rank.
+    /// Slots and chunks of each rank.
     runs: Vec<[Range<usize>; 2]>,
+    chunks: Vec<[Range<usize>; 2]>,
 }
 
-impl Gathering<'_> {
+impl<'a> Gathering<'a> {
+    /// Of so many slots, which are cut as said.
+    pub fn new<T: Real>(source: Source<'a>, division: &Division, slots: usize) -> Self {
+        let ranks = || 0..source.team().count();
+        Self {
+            source,
+            runs: ranks().map(|k| runs_of::<T>(division, k, slots)).collect(),
+            chunks: ranks().map(|k| division.of(k)).collect(),
+        }
+    }
+
+    /// Sums over the first `mobile` particles of all.
+    pub fn sums<T: Real, const D: usize>(
+        &self,
+        own: Results<T, D>,
+        mobile: usize,
+    ) -> Results<T, D> {
+        let rank = self.source.team().rank();
+        let moving = |runs: &[Range<usize>; 2]| runs[0].start.min(mobile)..runs[0].end.min(mobile);
+        let ends = self.chunks.iter().flatten().map(|own| own.end);
+        let count = ends.max().unwrap_or(0);
+        let here = (&moving(&self.runs[rank]), mobile);
+        let mut sums = Results::among(own, here, (&self.chunks[rank], count));
+        let rows = |runs: &[Range<usize>; 2]| [sums.rows_of(&moving(runs)), 0..0];
+        let rows: Vec<_> = self.runs.iter().map(rows).collect();
+        sums.gather(self.source, &rows, &self.chunks);
+        sums
+    }
+
     /// So many numbers of all particles, in the memory of those that this rank has, which grows where it must; of a slot those from
     /// `at` of it to `at` of the next. Those of others are empty where a rank has failed.
-    fn of<V: Plain>(&self, mut own: Vec<V>, at: impl Fn(usize) -> usize, count: usize) -> Vec<V> {
+    pub fn of<V: Plain>(
+        &self,
+        mut own: Vec<V>,
+        at: impl Fn(usize) -> usize,
+        count: usize,
+    ) -> Vec<V> {
         let runs_of = |rank: usize| {
             let numbers = |run: &Range<usize>| at(run.start)..at(run.end);
             self.runs[rank].each_ref().map(numbers)
@@ -76,7 +110,7 @@ impl Gathering<'_> {
         own
     }
 
-    fn columns<T: Real>(&self, own: Vec<T>, width: usize, slots: usize) -> Vec<T> {
+    pub fn columns<V: Plain>(&self, own: Vec<V>, width: usize, slots: usize) -> Vec<V> {
         self.of(own, |slot| width * slot, width * slots)
     }
 }
@@ -211,12 +245,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         let (all, team) = (*all, share.team.clone());
         let slots = all.slots();
-        let gathering = Gathering {
-            source: offer.map_or(Source::All(&team, What::State), Source::Offer),
-            runs: (0..team.count())
-                .map(|rank| runs_of::<T>(share.division(), rank, slots))
-                .collect(),
-        };
+        let source = offer.map_or(Source::All(&team, What::State), Source::Offer);
+        let gathering = Gathering::new::<T>(source, share.division(), slots);
         let part = &all.part;
         part.number_walls(&mut self.particles.ids, &all.walls, false);
         let mut own = replace(&mut self.particles, Arc::unwrap_or_clone(all.particles));
@@ -225,13 +255,13 @@ impl<T: Real, const D: usize> Group<T, D> {
             let (here, width) = (take(own.columns.column_mut(field)), field.components(D));
             *self.particles.columns.column_mut(field) = gathering.columns(here, width, slots);
         }
-        self.particles.ids = gathering.of(own.ids, |slot| slot, slots);
+        self.particles.ids = gathering.columns(own.ids, 1, slots);
         let walls = self.walls.iter().map(|wall| wall.slots.clone());
         self.particles.find_slots(walls);
         let near = &mut self.neighborhood;
-        near.listed = Arc::new(gathering.of(near.listed.to_vec(), |slot| slot, slots));
+        near.listed = Arc::new(gathering.columns(near.listed.to_vec(), 1, slots));
         if !near.listed_h.is_empty() {
-            near.listed_h = gathering.of(take(&mut near.listed_h), |slot| slot, slots);
+            near.listed_h = gathering.columns(take(&mut near.listed_h), 1, slots);
         }
         let (counts, lanes) = (near.lists.counts().to_vec(), width::<T>());
         let counts = gathering.of(counts, |slot| slot / lanes, slots / lanes);
@@ -247,19 +277,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (field, column) in work.saved_mut().filter(|own| !own.1.is_empty()) {
             *column = gathering.columns(take(column), field.components(D), slots);
         }
-        let chunks: Vec<_> = (0..team.count())
-            .map(|rank| share.division().of(rank))
-            .collect();
-        let mobile = self.particles.mobile;
-        let count = self.neighborhood.lists.chunks().len();
         for sums in work.sums_mut() {
-            let moving =
-                |runs: &[Range<usize>; 2]| runs[0].start.min(mobile)..runs[0].end.min(mobile);
-            let here = (&moving(&part.runs), mobile);
-            *sums = Results::among(take(sums), here, (&part.chunks, count));
-            let rows = |runs: &[Range<usize>; 2]| [sums.rows_of(&moving(runs)), 0..0];
-            let rows: Vec<_> = gathering.runs.iter().map(rows).collect();
-            sums.gather(gathering.source, &rows, &chunks);
+            *sums = gathering.sums(take(sums), self.particles.mobile);
         }
         let are_there = [work.records_of_rates, true];
         for (own, is_there) in work.records_mut().into_iter().zip(are_there) {

@@ -93,14 +93,20 @@ impl<T: Real, const D: usize> Particles<T, D> {
 
     /// Finds the slot of each particle of bodies and of some walls by identities.
     pub fn find_slots(&mut self, walls: impl Iterator<Item = Range<usize>>) {
-        self.slot_of = (0..self.columns.slots() as u32).collect();
+        self.slot_of = self.slots_of_ids(&self.ids, walls);
+    }
+
+    /// The slot of each particle of bodies and of some walls by the identities in all slots.
+    pub fn slots_of_ids(&self, ids: &[u32], walls: impl Iterator<Item = Range<usize>>) -> Vec<u32> {
+        let mut slot_of: Vec<u32> = (0..ids.len() as u32).collect();
         for body in &self.bodies {
-            self.slot_of[body.ids.clone()].fill(u32::MAX);
+            slot_of[body.ids.clone()].fill(u32::MAX);
         }
         let bodies = self.bodies.iter().map(|body| body.slots.clone());
         for slot in bodies.chain(walls).flatten() {
-            self.slot_of[self.ids[slot] as usize] = slot as u32;
+            slot_of[ids[slot] as usize] = slot as u32;
         }
+        slot_of
     }
 
     /// How many there are.

@@ -2,16 +2,12 @@
 //! Counts of work are those of the run, which the shown state has no part in.
 
 use super::Simulation;
-#[cfg(feature = "checkpoint")]
-use super::own_group::Lists;
 use super::run_state::State;
 use super::vote::Vote;
 use crate::clock::Instant;
 use crate::error::Result;
 use crate::scalar::Real;
 use core::mem;
-#[cfg(feature = "checkpoint")]
-use std::borrow::Cow;
 
 /// What readings are shown.
 #[derive(Clone, Debug)]
@@ -184,18 +180,6 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// The state after the last step, which has counted what it took.
     pub(super) fn after_step(&self) -> &State<T, D> {
         self.last_step().unwrap_or(self.state.own())
-    }
-
-    /// The same of all particles: where each rank has kept its own, all make a copy at once.
-    #[cfg(feature = "checkpoint")]
-    pub(super) fn after_step_of_all(&self) -> Cow<'_, State<T, D>> {
-        let last = self.after_step();
-        if !last.is_parted() {
-            return Cow::Borrowed(last);
-        }
-        let mut all = last.clone();
-        all.bring_together(Lists::None, None);
-        Cow::Owned(all)
     }
 
     /// Steps taken. A state that is shown between two steps is that of neither.

@@ -4,6 +4,7 @@
 use super::change::{Change, Changes};
 use super::held::{put_held, take_held};
 use super::particles::{check_run, put_particles, take_particles};
+use super::whole::Whole;
 use super::workspace::{put_neighborhood, put_workspace, take_neighborhood, take_workspace};
 use crate::boundary::Pose;
 use crate::material::eos::GuardCounts;
@@ -11,6 +12,7 @@ use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::simulation::group::Group;
+use crate::simulation::own_group::Lists;
 use crate::simulation::soundness::NEGATIVE_ENERGY;
 use crate::simulation::sources::{DrainState, SourceState};
 use crate::simulation::sub_cycle::SubCycle;
@@ -24,11 +26,10 @@ impl<T: Real, const D: usize> Group<T, D> {
             neighborhood,
             work,
             scheme,
-            // Ranks bring all particles together before.
             share: _,
-            all: _,
+            all,
             walls,
-            boundaries: _,
+            boundaries,
             // By the events, which are kept.
             exchanges: _,
             outlets: _,
@@ -50,11 +51,20 @@ impl<T: Real, const D: usize> Group<T, D> {
             given: _,
             joins_given: _,
         } = self;
-        let slots = particles.columns.slots();
-        put_particles(particles, scheme, name, file);
-        put_neighborhood(neighborhood, slots, name, file);
+        // Records of images follow from all particles.
+        let records = work.records_of_rates && !walls.is_empty();
+        let has_images = !boundaries.is_empty();
+        if all.is_some() && has_images && (records || !work.work_records.data().is_empty()) {
+            let mut together = self.clone();
+            together.bring_together(Lists::None, None);
+            together.put(name, file);
+            return;
+        }
+        let (slots, whole) = (particles.columns.slots(), Whole::new(self));
+        put_particles((particles, &whole), scheme, name, file);
+        put_neighborhood((neighborhood, &whole), slots, name, file);
         file.put_one(format!("{name}/served"), neighborhood.served);
-        put_workspace(work, (scheme, !walls.is_empty()), name, file);
+        put_workspace((work, &whole), (scheme, !walls.is_empty()), name, file);
         for (k, wall) in walls.iter().enumerate() {
             if let Some(structure) = &wall.structure {
                 let Structure {
@@ -104,6 +114,11 @@ impl<T: Real, const D: usize> Group<T, D> {
         file.put(format!("{name}/gravity"), 1, gravity);
         file.put(format!("{name}/evaluated_gravity"), 1, evaluated_gravity);
         file.put_reals(format!("{name}/body_force"), 1, body_force);
+        // What its rank has counted since is none: it was joined with what others have.
+        let (guards, limited) = match all {
+            Some(all) => (&all.guards, &all.limited),
+            None => (guards, limited),
+        };
         let GuardCounts {
             compression,
             expansion,

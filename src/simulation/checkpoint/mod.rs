@@ -12,6 +12,7 @@ mod joints;
 mod particles;
 mod ranks;
 mod saved;
+mod whole;
 mod workspace;
 
 use super::energy::Work;
@@ -136,7 +137,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         } = self;
         let shown = shown.own();
         // The next step starts from the state after the last one. While another is shown, no particles enter.
-        let last = self.after_step_of_all();
+        let last = self.after_step();
         let State {
             groups,
             couples,
@@ -158,7 +159,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             watch: _,
             stores,
             happened,
-        } = &*last;
+        } = last;
         let time = match reading {
             Reading::Rounded(own) => own,
             _ => time,

@@ -2,6 +2,7 @@
 //! Columns are put under the names of their fields.
 
 use super::change::{Change, Changes};
+use super::whole::Whole;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::Field;
 use crate::scalar::Real;
@@ -11,17 +12,18 @@ use crate::term::Stage;
 use std::ops::Range;
 
 pub(super) fn put_particles<T: Real, const D: usize>(
-    particles: &Particles<T, D>,
+    (particles, whole): (&Particles<T, D>, &Whole<'_, T, D>),
     scheme: &Scheme<T, D>,
     name: &str,
     file: &mut Checkpoint,
 ) {
     let Particles {
         columns,
-        bodies,
+        // Of all particles.
+        bodies: _,
         mobile: _,
-        ids,
-        slot_of,
+        ids: _,
+        slot_of: _,
         removed,
         entered,
         first_id: _,
@@ -32,7 +34,8 @@ pub(super) fn put_particles<T: Real, const D: usize>(
     } = particles;
     for field in columns.fields().iter() {
         let column = format!("{name}/particles/{}", scheme.program.name_of(field));
-        file.put_reals(column, field.components(D), columns.raw(field));
+        let width = field.components(D);
+        file.put_reals(column, width, &whole.column(columns.raw(field), width));
     }
     let end = |body: &BodyState<T>| {
         let BodyState {
@@ -45,10 +48,11 @@ pub(super) fn put_particles<T: Real, const D: usize>(
         } = body;
         slots.end as u64
     };
-    let ends: Vec<u64> = bodies.iter().map(end).collect();
+    let ends: Vec<u64> = whole.bodies().iter().map(end).collect();
     file.put(format!("{name}/body_ends"), 1, ends);
-    file.put(format!("{name}/ids"), 1, ids);
-    file.put(format!("{name}/slot_of"), 1, slot_of);
+    let ids = whole.ids();
+    file.put(format!("{name}/ids"), 1, &ids);
+    file.put(format!("{name}/slot_of"), 1, whole.slot_of(&ids));
     put_passed(removed, &format!("{name}/removed"), file);
     // Files of runs into which nothing has entered are as they were.
     if entered.particles > 0 {

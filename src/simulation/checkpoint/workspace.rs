@@ -1,6 +1,7 @@
 //! What a checkpoint holds of a group's lists and workspace: where lists were built, rates, sums, and saved states.
 //! Lists follow from the places that they were built from, and are built again.
 
+use super::whole::Whole;
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::Real;
@@ -93,7 +94,7 @@ pub(super) fn take_workspace<T: Real, const D: usize>(
 }
 
 pub(super) fn put_neighborhood<T: Real, const D: usize>(
-    neighborhood: &Neighborhood<T, D>,
+    (neighborhood, whole): (&Neighborhood<T, D>, &Whole<'_, T, D>),
     slots: usize,
     name: &str,
     file: &mut Checkpoint,
@@ -120,10 +121,10 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
         whole: _,
     } = neighborhood;
     // Images stand behind the slots.
-    let listed = listed[..slots].as_flattened();
-    let lengths = &listed_h[..slots.min(listed_h.len())];
-    file.put_reals(format!("{name}/listed_position"), D, listed);
-    file.put_reals(format!("{name}/listed_smoothing_length"), 1, lengths);
+    let listed = whole.column(&listed[..slots], 1);
+    let lengths = whole.column(&listed_h[..slots.min(listed_h.len())], 1);
+    file.put_reals(format!("{name}/listed_position"), D, listed.as_flattened());
+    file.put_reals(format!("{name}/listed_smoothing_length"), 1, &lengths);
     file.put_one(format!("{name}/listed_time"), *listed_time);
     file.put_one(format!("{name}/listed_reach"), *listed_reach);
     file.put_one(format!("{name}/placed_time"), *placed_time);
@@ -133,7 +134,7 @@ pub(super) fn put_neighborhood<T: Real, const D: usize>(
 }
 
 pub(super) fn put_workspace<T: Real, const D: usize>(
-    work: &Workspace<T, D>,
+    (work, whole): (&Workspace<T, D>, &Whole<'_, T, D>),
     (scheme, has_walls): (&Scheme<T, D>, bool),
     name: &str,
     file: &mut Checkpoint,
@@ -165,27 +166,25 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
     } else {
         &Records::default()
     };
-    put_records(records, &format!("{name}/records"), file);
-    put_records(work_records, &format!("{name}/work_records"), file);
+    put_records(whole, records, &format!("{name}/records"), file);
+    put_records(whole, work_records, &format!("{name}/work_records"), file);
     let of_rates = u32::from(*records_of_rates);
     file.put_one(format!("{name}/records_of_rates"), of_rates);
     file.put_one(format!("{name}/lengths_time"), *lengths_time);
     file.put_one(format!("{name}/evaluated_time"), *evaluated_time);
     let first_kick = first_kick.unwrap_or([f64::NAN; 2]);
     file.put(format!("{name}/first_kick"), 1, first_kick);
-    let all = [
-        ("rates", rates),
-        ("worked", worked),
-        ("sums", sums),
-        ("coupling", coupling),
-    ];
-    for (what, rows) in all {
-        put_rows(rows, &format!("{name}/{what}"), file);
+    for (what, rows) in [("rates", rates), ("worked", worked)] {
+        put_rows(&whole.sums(rows), &format!("{name}/{what}"), file);
+    }
+    for (what, rows) in [("sums", sums), ("coupling", coupling)] {
+        put_rows(whole.of_evaluation(rows), &format!("{name}/{what}"), file);
     }
     let mut put_saved = |what: &str, saved: &Saved<T>| {
         for (field, column) in saved.iter().filter(|(_, column)| !column.is_empty()) {
             let name = format!("{name}/{what}/{}", scheme.program.name_of(*field));
-            file.put_reals(name, field.components(D), column);
+            let width = field.components(D);
+            file.put_reals(name, width, &whole.column(column, width));
         }
     };
     for (k, saved) in kept.iter().enumerate() {
@@ -203,8 +202,14 @@ fn take_first_kick(name: &str, file: &Checkpoint) -> Read<Option<[f64; 2]>> {
     Ok(stored.iter().all(|own| !own.is_nan()).then_some(stored))
 }
 
-fn put_records<T: Real>(records: &Records<T>, name: &str, file: &mut Checkpoint) {
-    file.put_reals(name.into(), records.stride().max(1), records.data());
+fn put_records<T: Real, const D: usize>(
+    whole: &Whole<'_, T, D>,
+    records: &Records<T>,
+    name: &str,
+    file: &mut Checkpoint,
+) {
+    let width = records.stride().max(1);
+    file.put_reals(name.into(), width, &whole.column(records.data(), width));
     file.put_one(format!("{name}/stride"), records.stride() as u64);
 }
 
