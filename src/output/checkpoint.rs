@@ -17,8 +17,9 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read as _, Seek, SeekFrom, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 /// What reading a checkpoint gives.
 pub(crate) type Read<V> = core::result::Result<V, CheckpointProblem>;
@@ -56,9 +57,45 @@ struct Column {
     kind: Dtype,
     shape: Vec<usize>,
     bytes: Vec<u8>,
+    /// Where they are instead, one piece after another, if they are in parts of ranks.
+    pieces: Vec<Piece>,
+}
+
+/// Bytes of a column in the part of a rank.
+#[derive(Clone, Debug, PartialEq)]
+struct Piece {
+    part: Arc<Path>,
+    at: u64,
+    length: usize,
+}
+
+impl Piece {
+    fn read(&self, to: &mut Vec<u8>) -> io::Result<()> {
+        let mut file = File::open(&self.part)?;
+        file.seek(SeekFrom::Start(self.at))?;
+        let found = file.take(self.length as u64).read_to_end(to)?;
+        if found < self.length {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        Ok(())
+    }
 }
 
 impl Column {
+    /// Its bytes, which are read where they are in parts.
+    fn bytes(&self) -> Read<Cow<'_, [u8]>> {
+        if self.pieces.is_empty() {
+            return Ok(Cow::Borrowed(&self.bytes));
+        }
+        let lengths = self.pieces.iter().map(|own| own.length);
+        let mut all = Vec::with_capacity(lengths.sum());
+        for piece in &self.pieces {
+            let fault = |cause| damaged(format!("`{}`: {cause}", piece.part.display()));
+            piece.read(&mut all).map_err(fault)?;
+        }
+        Ok(Cow::Owned(all))
+    }
+
     fn of<N: Number>(shape: Vec<usize>, numbers: impl Iterator<Item = N>) -> Self {
         let mut bytes = Vec::with_capacity(size_of::<N>() * shape.iter().product::<usize>());
         numbers.for_each(|number| number.append(&mut bytes));
@@ -66,6 +103,7 @@ impl Column {
             kind: N::KIND,
             shape,
             bytes,
+            pieces: Vec::new(),
         }
     }
 }
@@ -176,7 +214,8 @@ impl Checkpoint {
     pub fn has_numbers(&self, first: &str, second: &str) -> bool {
         let mut all = self.columns.iter();
         all.any(|(name, own)| {
-            name.contains(first) && name.contains(second) && !own.bytes.is_empty()
+            let count: usize = own.shape.iter().product();
+            name.contains(first) && name.contains(second) && count > 0
         })
     }
 
@@ -201,7 +240,8 @@ impl Checkpoint {
     pub fn get<N: Number>(&self, name: &str) -> Read<Vec<N>> {
         let column = self.columns.get(name);
         let column = column.ok_or_else(|| damaged(format!("there is no column `{name}`")))?;
-        let numbers = column.bytes.chunks_exact(size_of::<N>()).map(N::of);
+        let bytes = column.bytes()?;
+        let numbers = bytes.chunks_exact(size_of::<N>()).map(N::of);
         match numbers.collect() {
             Some(numbers) if column.kind == N::KIND => Ok(numbers),
             _ => Err(damaged(format!("column `{name}` is of {}", column.kind))),
@@ -278,24 +318,18 @@ impl Checkpoint {
     }
 
     fn of_bytes(bytes: &[u8]) -> Read<Self> {
-        let broken = |error: safetensors::SafeTensorError| damaged(error.to_string());
-        let file = SafeTensors::deserialize(bytes).map_err(broken)?;
-        let sum = file.tensor(CHECKSUM).map_err(broken)?;
-        let end = bytes.len().saturating_sub(SUM);
-        let mut hash = Hash::new();
-        hash.bytes(&bytes[..end]);
-        if sum.data() != hash.value().to_le_bytes() || sum.data() != &bytes[end..] {
-            return Err(damaged("the checksum does not fit the rest"));
-        }
+        let file = whole(bytes)?;
         let columns = file.iter().map(|(name, view)| {
             let column = Column {
                 kind: view.dtype(),
                 shape: view.shape().to_vec(),
                 bytes: view.data().to_vec(),
+                pieces: Vec::new(),
             };
             (name.to_string(), column)
         });
         let columns = columns.collect();
+        let broken = |error: safetensors::SafeTensorError| damaged(error.to_string());
         let (_, header) = SafeTensors::read_metadata(bytes).map_err(broken)?;
         let texts = header.metadata().iter().flatten();
         let texts = texts.map(|(name, text)| (name.clone(), text.clone()));
@@ -305,6 +339,20 @@ impl Checkpoint {
             ..Self::default()
         })
     }
+}
+
+/// A file under its checksum.
+fn whole(bytes: &[u8]) -> Read<SafeTensors<'_>> {
+    let broken = |error: safetensors::SafeTensorError| damaged(error.to_string());
+    let file = SafeTensors::deserialize(bytes).map_err(broken)?;
+    let sum = file.tensor(CHECKSUM).map_err(broken)?;
+    let end = bytes.len().saturating_sub(SUM);
+    let mut hash = Hash::new();
+    hash.bytes(&bytes[..end]);
+    if sum.data() != hash.value().to_le_bytes() || sum.data() != &bytes[end..] {
+        return Err(damaged("the checksum does not fit the rest"));
+    }
+    Ok(file)
 }
 
 /// The error of a problem of the file at `path`.

@@ -54,8 +54,8 @@
 //! # Memory
 //!
 //! A rank has its own particles, their lists, and ghosts: particles of others that these name. Of all others it has while it builds the
-//! scene the places that bodies have, and particles in the second form of a step, after it has read, and where it resumes. A scene that is
-//! predicted to take more than the part of a rank has is refused on all of them.
+//! scene the places that bodies have, one column at a time while a checkpoint is written or read, and all particles in the second form of
+//! a step and after it has read. A scene of which the part of a rank is predicted not to fit is refused on all of them.
 //!
 //! # Files
 //!

@@ -174,7 +174,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         // Walls that are elsewhere would move the place from which columns count.
         let origin = file.get_array("origin").ok();
         let origin = origin.filter(|_| changes.has(Change::Walls));
-        let simulation = self.lay_out(origin, team, false)?;
+        let simulation = self.lay_out(origin, team, changes.is_empty())?;
         simulation.resumed(path, &file, changes)
     }
 

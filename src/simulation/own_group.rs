@@ -186,6 +186,26 @@ impl<T: Real, const D: usize> Group<T, D> {
         Some(even).filter(|own| is_alone && own.is_full())
     }
 
+    /// Lists the neighbours of particles that were read with all records, where they are.
+    #[cfg(feature = "checkpoint")]
+    pub(super) fn list_read(&mut self, at: (f64, f64)) {
+        if self.all.is_none() {
+            self.list(at.0, at.1);
+            return;
+        }
+        self.neighborhood.remember(&self.particles);
+        let ghosts = self.list_own(at);
+        let (Some(all), Some(share)) = (&mut self.all, &self.share) else {
+            return;
+        };
+        all.entries = 0;
+        let own = [self.neighborhood.lists.entries() as u64];
+        (share.team).numbers(own, |[own]| all.entries += own as usize);
+        for records in self.work.records_mut() {
+            *records = all.part.records(records, &ghosts);
+        }
+    }
+
     /// Leaves this rank the particles of a part, whose columns are `own`, where so many pairs were summed and all lists have so many
     /// entries.
     fn leave(&mut self, part: Part, own: Columns<T, D>, (pairs, entries): (u64, usize)) {
@@ -296,7 +316,7 @@ impl<T: Real, const D: usize> Group<T, D> {
     }
 
     /// Makes the records of images, of which no rank has all.
-    fn show_images_again(&mut self) {
+    pub(super) fn show_images_again(&mut self) {
         let scheme = self.scheme.clone();
         let Some(sweep) = scheme.sweep(Stage::Rates) else {
             return;

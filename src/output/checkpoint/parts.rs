@@ -1,13 +1,14 @@
 //! A checkpoint in parts: a file of rows of each rank, and a manifest with their checksums and all else.
 //! Parts take one of two names in turn, so those of the checkpoint before stand until the manifest is another.
 
-use super::{CHECKSUM, Checkpoint, Read, damaged, write_columns};
+use super::{CHECKSUM, Checkpoint, Piece, Read, damaged, whole, write_columns};
 use crate::error::{CheckpointProblem, Error, Result};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Columns of so many rows are divided among ranks; the first rank has those of fewer.
 pub(super) const LONG: usize = 64;
@@ -92,7 +93,7 @@ impl Checkpoint {
         self.write(path)
     }
 
-    /// Takes in the rows of the ranks that wrote it, if ranks did.
+    /// Finds the rows of the ranks that wrote it, if ranks did. They stay where they are until a column is asked for.
     pub(super) fn join(&mut self, path: &Path) -> Read<()> {
         if !self.has(PARTS) {
             return Ok(());
@@ -109,20 +110,28 @@ impl Checkpoint {
             };
             let bytes = fs::read(&part);
             let bytes = bytes.map_err(|cause| fault(format!("cannot be read: {cause}")))?;
-            let own = Self::of_bytes(&bytes).map_err(|problem| match problem {
+            let own = whole(&bytes).map_err(|problem| match problem {
                 CheckpointProblem::Damaged { detail } => {
                     fault(format!("is truncated or altered ({detail})"))
                 }
                 other => other,
             })?;
-            if own.get::<u8>(CHECKSUM)? != sum.to_le_bytes() {
+            if !bytes.ends_with(&sum.to_le_bytes()) {
                 return Err(fault("is of another checkpoint".into()));
             }
-            for (name, rows) in own.columns {
-                if name == CHECKSUM {
-                    continue;
-                }
-                match self.columns.entry(name) {
+            let file: Arc<Path> = part.as_path().into();
+            for (name, view) in own.iter().filter(|own| own.0 != CHECKSUM) {
+                let rows = super::Column {
+                    kind: view.dtype(),
+                    shape: view.shape().to_vec(),
+                    bytes: Vec::new(),
+                    pieces: vec![Piece {
+                        part: file.clone(),
+                        at: (view.data().as_ptr().addr() - bytes.as_ptr().addr()) as u64,
+                        length: view.data().len(),
+                    }],
+                };
+                match self.columns.entry(name.to_owned()) {
                     Entry::Vacant(none) => {
                         none.insert(rows);
                     }
@@ -138,11 +147,12 @@ impl super::Column {
     /// Adds rows behind its own.
     fn extend(&mut self, rows: Self) -> Read<()> {
         let is_alike = self.kind == rows.kind && self.shape.get(1..) == rows.shape.get(1..);
+        let is_alike = is_alike && self.bytes.is_empty();
         let (true, [own, ..], [more, ..]) = (is_alike, &mut *self.shape, &*rows.shape) else {
             return Err(damaged("its parts have other columns"));
         };
         *own += more;
-        self.bytes.extend(rows.bytes);
+        self.pieces.extend(rows.pieces);
         Ok(())
     }
 }
@@ -205,7 +215,10 @@ mod tests {
             }
             assert_eq!(joined.columns.len() + 1, whole.columns.len());
             for (name, column) in joined.columns {
-                assert_eq!(column, whole.columns[&name], "{name}");
+                let other = &whole.columns[&name];
+                let kinds = [&column, other].map(|own| (own.kind, own.shape.clone()));
+                assert_eq!(kinds[0], kinds[1], "{name}");
+                assert_eq!(column.bytes(), other.bytes(), "{name}");
             }
             assert_eq!(joined.texts, whole.texts);
             fs::remove_dir_all(path.parent().unwrap()).unwrap();

@@ -3,8 +3,8 @@
 
 use super::change::{Change, Changes};
 use super::held::{put_held, take_held};
-use super::particles::{check_run, put_particles, take_particles};
-use super::whole::Whole;
+use super::particles::{put_particles, take_particles};
+use super::whole::{Kept, Whole};
 use super::workspace::{put_neighborhood, put_workspace, take_neighborhood, take_workspace};
 use crate::boundary::Pose;
 use crate::material::eos::GuardCounts;
@@ -18,6 +18,7 @@ use crate::simulation::sources::{DrainState, SourceState};
 use crate::simulation::sub_cycle::SubCycle;
 use crate::simulation::walls::Structure;
 use crate::simulation::workspace::Workspace;
+use core::mem::take;
 
 impl<T: Real, const D: usize> Group<T, D> {
     pub(super) fn put(&self, name: &str, file: &mut Checkpoint) {
@@ -160,11 +161,9 @@ impl<T: Real, const D: usize> Group<T, D> {
         for (k, own) in self.drains.iter_mut().enumerate() {
             [own.due, own.time] = file.get_array(&format!("{name}/drain{k}"))?;
         }
-        take_particles(&mut self.particles, &scheme, (name, file), changes)?;
-        for wall in &self.walls {
-            check_run(&self.particles, wall.slots.start..wall.end)?;
-        }
-        let columns = &self.particles.columns;
+        let kept = Kept::new(self);
+        take_particles(self, &kept, (name, file), changes)?;
+        let columns = (&self.particles.columns, &kept);
         let taken = take_neighborhood(&mut self.neighborhood, columns, name, file)?;
         self.work = if changes.is_anew {
             Workspace {
@@ -172,7 +171,9 @@ impl<T: Real, const D: usize> Group<T, D> {
                 ..Workspace::default()
             }
         } else {
-            take_workspace(columns, &scheme, name, file)?
+            let all = self.all.as_ref().map(|all| &*all.particles);
+            let mobile = all.unwrap_or(&self.particles).mobile;
+            take_workspace(columns, (&scheme, mobile), name, file)?
         };
         // Lists follow from the places and lengths that they were built from.
         let (mut listed, placed_time) = taken;
@@ -183,10 +184,13 @@ impl<T: Real, const D: usize> Group<T, D> {
         };
         exchange(&mut self.particles.columns);
         let near = &self.neighborhood;
-        self.list(near.listed_time, near.listed_reach);
+        self.list_read((near.listed_time, near.listed_reach));
         exchange(&mut self.particles.columns);
         self.neighborhood
             .place_transforms(&self.boundaries, placed_time);
+        if self.all.is_some() {
+            self.show_images_again();
+        }
         for (k, wall) in self.walls.iter_mut().enumerate() {
             if let Some(structure) = &mut wall.structure {
                 let own = structure.accelerations.as_flattened_mut();
@@ -227,6 +231,10 @@ impl<T: Real, const D: usize> Group<T, D> {
                 None if changes.has(Change::Viscosity) => {}
                 None => return Err(damaged(format!("there is no limit `{limit}`"))),
             }
+        }
+        if let Some(all) = &mut self.all {
+            let own = (&mut self.guards, &mut self.limited);
+            (all.guards, all.limited) = (take(own.0), take(own.1));
         }
         Ok(())
     }

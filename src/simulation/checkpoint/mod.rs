@@ -101,6 +101,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 changes.without_clamps()
             };
         self.take(file, changes).map_err(problem)?;
+        if self.state.own().is_parted() {
+            self.begin_parts()?;
+            // Books of energy are of all particles.
+            if self.state.own().work.is_some() {
+                self.bring_together();
+            }
+        }
         if changes.is_anew {
             self.evaluate_together()?;
         }
@@ -112,6 +119,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
                 self.show(shown, next)?;
             }
         }
+        self.end_parts();
         Ok(self)
     }
 

@@ -2,11 +2,12 @@
 //! Columns are put under the names of their fields.
 
 use super::change::{Change, Changes};
-use super::whole::Whole;
+use super::whole::{Kept, Whole};
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::Field;
 use crate::scalar::Real;
 use crate::scheme::Scheme;
+use crate::simulation::group::Group;
 use crate::simulation::population::{BodyState, Moves, Particles, Passed};
 use crate::term::Stage;
 use std::ops::Range;
@@ -83,12 +84,12 @@ fn take_passed<const D: usize>(name: &str, file: &Checkpoint) -> Read<Passed<D>>
 }
 
 pub(super) fn take_particles<T: Real, const D: usize>(
-    particles: &mut Particles<T, D>,
-    scheme: &Scheme<T, D>,
+    group: &mut Group<T, D>,
+    kept: &Kept,
     (name, file): (&str, &Checkpoint),
     changes: Changes<'_>,
 ) -> Read<()> {
-    let slots = particles.columns.slots();
+    let (particles, scheme) = (&mut group.particles, &*group.scheme);
     let viscosities = if changes.has(Change::Viscosity) {
         built_viscosities(particles, scheme)
     } else {
@@ -100,21 +101,11 @@ pub(super) fn take_particles<T: Real, const D: usize>(
         if changes.has(Change::Loads) && !file.has(&column) {
             continue;
         }
-        let numbers = file.get_all_reals(&column, slots * field.components(D))?;
-        *particles.columns.column_mut(field) = numbers;
+        let numbers = file.get_all_reals(&column, kept.slots * field.components(D))?;
+        *particles.columns.column_mut(field) = kept.column(numbers);
     }
-    let ends = file.get_all::<u64>(&format!("{name}/body_ends"), particles.bodies.len())?;
-    particles.ids = file.get_all(&format!("{name}/ids"), slots)?;
-    particles.slot_of = file.get_all(&format!("{name}/slot_of"), slots)?;
-    for (k, end) in ends.into_iter().enumerate() {
-        let run = particles.bodies[k].run();
-        check_run(particles, run.clone())?;
-        let end = end as usize;
-        if !(run.start..=run.end).contains(&end) {
-            return Err(damaged("a body ends outside of its run"));
-        }
-        particles.bodies[k].slots.end = end;
-    }
+    take_order(group, kept, (name, file))?;
+    let particles = &mut group.particles;
     if !viscosities.is_empty() {
         let column = particles.columns.raw_mut(Field::DYNAMIC_VISCOSITY);
         for body in particles.bodies.iter().filter(|own| !own.slots.is_empty()) {
@@ -132,6 +123,44 @@ pub(super) fn take_particles<T: Real, const D: usize>(
     } else {
         Passed::default()
     };
+    Ok(())
+}
+
+/// Which particle is in which slot, and where bodies end.
+fn take_order<T: Real, const D: usize>(
+    group: &mut Group<T, D>,
+    kept: &Kept,
+    (name, file): (&str, &Checkpoint),
+) -> Read<()> {
+    let (bodies, walls) = match &group.all {
+        None => (&group.particles.bodies, &group.walls),
+        Some(all) => (&all.particles.bodies, &all.walls),
+    };
+    let ends = file.get_all::<u64>(&format!("{name}/body_ends"), bodies.len())?;
+    let ids: Vec<u32> = file.get_all(&format!("{name}/ids"), kept.slots)?;
+    let slot_of: Vec<u32> = file.get_all(&format!("{name}/slot_of"), kept.slots)?;
+    for (body, end) in bodies.iter().zip(&ends) {
+        check_run((&ids, &slot_of), body.run())?;
+        let end = *end as usize;
+        // Where ranks begin with their own alone nothing leaves.
+        let has_all = group.all.is_none() || end == body.slots.end;
+        if !has_all || !(body.slots.start..=body.end).contains(&end) {
+            return Err(damaged("a body ends outside of its run"));
+        }
+    }
+    for wall in walls {
+        check_run((&ids, &slot_of), wall.slots.start..wall.end)?;
+    }
+    group.particles.ids = kept.column(ids);
+    if let Some(all) = &group.all {
+        let own = &mut group.particles.ids;
+        all.part.number_walls(own, &all.walls, true);
+        return Ok(());
+    }
+    group.particles.slot_of = slot_of;
+    for (body, end) in group.particles.bodies.iter_mut().zip(ends) {
+        body.slots.end = end as usize;
+    }
     Ok(())
 }
 
@@ -171,13 +200,10 @@ fn built_viscosities<T: Real, const D: usize>(
 }
 
 /// Particles stay in the run of their body or wall.
-pub(super) fn check_run<T: Real, const D: usize>(
-    particles: &Particles<T, D>,
-    run: Range<usize>,
-) -> Read<()> {
+fn check_run((ids, slot_of): (&[u32], &[u32]), run: Range<usize>) -> Read<()> {
     let inside = |slot: &u32| run.contains(&(*slot as usize));
-    let ids = particles.ids[run.clone()].iter().all(inside);
-    let slots = particles.slot_of[run.clone()].iter();
+    let ids = ids[run.clone()].iter().all(inside);
+    let slots = slot_of[run.clone()].iter();
     if ids && slots.filter(|slot| **slot != u32::MAX).all(inside) {
         return Ok(());
     }

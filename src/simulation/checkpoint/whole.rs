@@ -1,20 +1,22 @@
-//! Columns of all particles for a checkpoint, one after another: those of a group, or, where each rank has its own alone, of all ranks.
-//! A rank has no more than one of them at a time.
+//! Columns of all particles between a group and a checkpoint, also where each rank has its own particles alone.
+//! A rank has no more than one of these columns at a time.
 
+use crate::particles::{Columns, Field};
 use crate::ranks::{Plain, Source, What};
 use crate::scalar::Real;
 use crate::simulation::group::Group;
 use crate::simulation::own_group::{All, Gathering};
+use crate::simulation::part::Part;
 use crate::simulation::population::BodyState;
 use crate::sweep::Results;
 use std::borrow::Cow;
+use std::sync::Arc;
 
-/// A group as a checkpoint has it.
+/// A group as a checkpoint has it: what is written.
 pub(super) struct Whole<'a, T: Real, const D: usize> {
     group: &'a Group<T, D>,
     /// What it has of all particles and how it gets the rest, where its rank has its own alone.
     apart: Option<(&'a All<T, D>, Gathering<'a>)>,
-    none: Results<T, D>,
 }
 
 impl<'a, T: Real, const D: usize> Whole<'a, T, D> {
@@ -25,11 +27,7 @@ impl<'a, T: Real, const D: usize> Whole<'a, T, D> {
             let gathering = Gathering::new::<T>(source, share.division(), all.slots());
             (all, gathering)
         });
-        Self {
-            group,
-            apart,
-            none: Results::default(),
-        }
+        Self { group, apart }
     }
 
     /// A column with so many numbers a slot.
@@ -78,13 +76,53 @@ impl<'a, T: Real, const D: usize> Whole<'a, T, D> {
             Some((all, gathering)) => Cow::Owned(gathering.sums(own.clone(), all.particles.mobile)),
         }
     }
+}
 
-    /// Sums of an evaluation, which no step reads later: none where ranks have their own particles alone.
-    pub fn of_evaluation<'b>(&'b self, own: &'b Results<T, D>) -> &'b Results<T, D> {
-        if self.apart.is_some() {
-            &self.none
-        } else {
-            own
+/// What a rank keeps of columns of all particles that are read: those of its own alone, where it begins with these.
+pub(super) struct Kept {
+    part: Option<Arc<Part>>,
+    /// Slots of all.
+    pub slots: usize,
+}
+
+impl Kept {
+    pub fn new<T: Real, const D: usize>(group: &Group<T, D>) -> Self {
+        let all = group.all.as_ref();
+        let own = || group.particles.columns.slots();
+        Self {
+            part: all.map(|all| all.part.clone()),
+            slots: all.map_or_else(own, |all| all.slots()),
         }
+    }
+
+    /// How many numbers all have of a field; none of one without a column.
+    pub fn count_of<T: Real, const D: usize>(&self, own: &Columns<T, D>, field: Field) -> usize {
+        if own.fields().contains(field) {
+            self.slots * field.components(D)
+        } else {
+            0
+        }
+    }
+
+    /// Its own of a column; none of one that is not there.
+    pub fn column<V: Copy>(&self, all: Vec<V>) -> Vec<V> {
+        match &self.part {
+            None => all,
+            Some(part) => part.of_column(&all, self.slots),
+        }
+    }
+
+    /// Its own of sums over all that moves by forces.
+    pub fn sums<T: Real, const D: usize>(
+        &self,
+        all: Results<T, D>,
+        mobile: usize,
+    ) -> Results<T, D> {
+        let Some(part) = &self.part else {
+            return all;
+        };
+        let run = part.runs[0].start.min(mobile)..part.runs[0].end.min(mobile);
+        // How many chunks there are no checkpoint tells.
+        all.of_run(&run, (&part.chunks, usize::MAX))
     }
 }

@@ -1,7 +1,7 @@
 //! What a checkpoint holds of a group's lists and workspace: where lists were built, rates, sums, and saved states.
 //! Lists follow from the places that they were built from, and are built again.
 
-use super::whole::Whole;
+use super::whole::{Kept, Whole};
 use crate::output::checkpoint::{Checkpoint, Read, damaged};
 use crate::particles::{Columns, Field, Output, Outputs};
 use crate::scalar::Real;
@@ -19,7 +19,7 @@ use crate::term::Stage;
 /// transforms of images were.
 pub(super) fn take_neighborhood<T: Real, const D: usize>(
     own: &mut Neighborhood<T, D>,
-    columns: &Columns<T, D>,
+    (columns, kept): (&Columns<T, D>, &Kept),
     name: &str,
     file: &Checkpoint,
 ) -> Read<(Saved<T>, f64)> {
@@ -31,32 +31,35 @@ pub(super) fn take_neighborhood<T: Real, const D: usize>(
     own.rebuilds = file.get_one(&format!("{name}/rebuilds"))?;
     let entries = file.get_one::<u64>(&format!("{name}/sorted_entries"))?;
     own.sorted_entries = entries as usize;
-    let count = columns.slots() * D;
-    let x = file.get_all_reals(&format!("{name}/listed_position"), count)?;
-    let count = columns.raw(Field::SMOOTHING_LENGTH).len();
+    let x = file.get_all_reals(&format!("{name}/listed_position"), kept.slots * D)?;
+    let count = kept.count_of(columns, Field::SMOOTHING_LENGTH);
     let h = file.get_all_reals(&format!("{name}/listed_smoothing_length"), count)?;
-    let listed = vec![(Field::POSITION, x), (Field::SMOOTHING_LENGTH, h)];
+    let listed = [(Field::POSITION, x), (Field::SMOOTHING_LENGTH, h)];
+    let listed = listed.map(|(field, all)| (field, kept.column(all))).into();
     Ok((listed, placed_time))
 }
 
 pub(super) fn take_workspace<T: Real, const D: usize>(
-    columns: &Columns<T, D>,
-    scheme: &Scheme<T, D>,
+    (columns, kept_here): (&Columns<T, D>, &Kept),
+    (scheme, mobile): (&Scheme<T, D>, usize),
     name: &str,
     file: &Checkpoint,
 ) -> Read<Workspace<T, D>> {
-    let rows = |what: &str| take_rows(scheme, &format!("{name}/{what}"), file);
+    let rows = |what: &str| -> Read<Results<T, D>> {
+        let all = take_rows(scheme, &format!("{name}/{what}"), file)?;
+        Ok(kept_here.sums(all, mobile))
+    };
     let saved = |what: &str, fields: Vec<Field>| -> Read<Saved<T>> {
         let mut saved = Saved::new();
         for field in fields {
             let column = format!("{name}/{what}/{}", scheme.program.name_of(field));
             // What has no column is kept as none.
-            let count = columns.raw(field).len();
+            let count = kept_here.count_of(columns, field);
             let numbers = match count {
                 0 => Vec::new(),
                 _ => file.get_all_reals(&column, count)?,
             };
-            saved.push((field, numbers));
+            saved.push((field, kept_here.column(numbers)));
         }
         Ok(saved)
     };
@@ -82,7 +85,7 @@ pub(super) fn take_workspace<T: Real, const D: usize>(
         worked: rows("worked")?,
         first_kick: take_first_kick(name, file)?,
         lengths_time: file.get_one(&format!("{name}/lengths_time"))?,
-        sums: rows("sums")?,
+        sums: Results::default(),
         coupling: rows("coupling")?,
         settling: Settling::default(),
         predicted: Saved::new(),
@@ -149,7 +152,8 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
         worked,
         first_kick,
         lengths_time,
-        sums,
+        // Each sweep sums anew.
+        sums: _,
         coupling,
         // A prediction is taken back in the step that makes it.
         predicted: _,
@@ -177,9 +181,7 @@ pub(super) fn put_workspace<T: Real, const D: usize>(
     for (what, rows) in [("rates", rates), ("worked", worked)] {
         put_rows(&whole.sums(rows), &format!("{name}/{what}"), file);
     }
-    for (what, rows) in [("sums", sums), ("coupling", coupling)] {
-        put_rows(whole.of_evaluation(rows), &format!("{name}/{what}"), file);
-    }
+    put_rows(coupling, &format!("{name}/coupling"), file);
     let mut put_saved = |what: &str, saved: &Saved<T>| {
         for (field, column) in saved.iter().filter(|(_, column)| !column.is_empty()) {
             let name = format!("{name}/{what}/{}", scheme.program.name_of(*field));
