@@ -82,7 +82,7 @@ fn periods_have_two_neighbours_and_one_rank_has_no_ghosts() {
     assert_relative_eq!(cube(10, 99.0).ghosts(8), 875.0, max_relative = 1e-12);
 }
 
-/// Water in space, by the numbers of docs/ranks.md, with one rank a machine of so many cores.
+/// Water in space, by the numbers of docs/notebook/ranks.md, with one rank a machine of so many cores.
 fn water(particles: f64, cores: f64) -> RankModel {
     let million = RankModel {
         particles: 1e6,
@@ -160,7 +160,7 @@ fn a_step_takes_what_its_parts_take() {
     assert_relative_eq!(alone.step, 8.0 * work + letters, max_relative = 1e-12);
 }
 
-/// The table of docs/ranks.md; `cargo test --lib ranks::model -- --nocapture` prints it.
+/// What limits first; `cargo test --lib ranks::model -- --nocapture` prints it.
 #[test]
 fn memory_and_gatherings_limit_first() {
     let network = Network::default();
