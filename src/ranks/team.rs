@@ -53,7 +53,7 @@ pub(crate) struct Stamp {
     pub time: f64,
     /// Particles.
     pub particles: usize,
-    /// A number that follows from their velocities.
+    /// A number that follows from their velocities, or from how they start.
     pub motion: u64,
 }
 
@@ -426,7 +426,7 @@ impl Team {
             Some(())
         });
         if let Some(rank) = differs {
-            let cause = "after this step its time, its number of particles or their velocities are not those of rank 0: all ranks must \
+            let cause = "its time, its number of particles, or how these move or start, are not those of rank 0: all ranks must \
                          build the same scene, of the same functions, with one build of the program";
             self.broken().get_or_insert(broken(rank, cause));
         }

@@ -288,7 +288,15 @@ impl<T: Real, const D: usize> Body<T, D> {
 
     /// Starts each particle as listed: one is kept where all are the same.
     pub(crate) fn set_starts(&mut self, mut starts: Vec<Start<D>>) {
-        if starts.windows(2).all(|pair| pair[0] == pair[1]) {
+        // Zeros of either sign are equal and have different bits.
+        let bits = |own: &Start<D>| {
+            let [density, energy] = [own.density, own.energy].map(f64::to_bits);
+            (own.velocity.map(f64::to_bits), density, energy)
+        };
+        if starts
+            .windows(2)
+            .all(|pair| bits(&pair[0]) == bits(&pair[1]))
+        {
             starts.truncate(1);
             starts.shrink_to_fit();
         }
@@ -457,6 +465,34 @@ mod tests {
             assert!(of(&linear) / 1000.0 - 1.0 - share > 0.4 * share * share);
         }
         assert_eq!(density_below(&water, -1.0, 0.0), None);
+    }
+
+    #[test]
+    fn one_start_is_kept_where_all_are_the_same() {
+        let bar = || Body::<f64, 1>::block("bar", catalogue::copper(), [0.0], [1.0], 0.25);
+        let same = bar().velocity([2.0]).start(|_, start| Start {
+            energy: 3.0,
+            ..start
+        });
+        assert_eq!(same.starts.len(), 1);
+        let expected = (same.starts[0].velocity, same.starts[0].energy);
+        assert_eq!(expected, ([2.0], 3.0));
+        assert_eq!(same.start_of(3), same.start_of(0));
+        // What is said of all particles later changes each of them, and no sign of a zero is lost.
+        let sign = |x: f64| if x < 0.5 { 0.0 } else { -0.0 };
+        let each = bar().start(|[x], start| Start {
+            velocity: [sign(x)],
+            ..start
+        });
+        let each = each.energy(3.0);
+        assert_eq!(each.starts.len(), 4);
+        let bits = [0, 3].map(|k| each.start_of(k).velocity[0].to_bits());
+        assert_eq!(bits, [0.0_f64, -0.0].map(f64::to_bits));
+        assert!((0..4).all(|k| each.start_of(k).energy == 3.0));
+        // A body without particles starts as its material at rest.
+        let none = Body::<f64, 1>::points_of("none", catalogue::copper(), Vec::new(), 0.1);
+        let none = none.start(|_, _| unreachable!("there are no particles"));
+        assert_eq!(none.start_of(0).velocity, [0.0]);
     }
 
     #[test]

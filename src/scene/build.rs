@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use super::{Body, Part, Scene};
+use crate::boundary::Wall;
 use crate::collective::over;
 use crate::error::{BuildError, Error, Problem, Result};
 use crate::once::once;
@@ -255,7 +256,7 @@ impl<T: Real, const D: usize> Scene<T, D> {
         self.is_of_neighbors_alone() && self.plans().all(begins)
     }
 
-    /// How ranks know that they build the same scene: by the number of its particles, and how these start.
+    /// By which ranks notice that they build different scenes: how many particles bodies have, how these start, and where walls are.
     fn stamp(&self) -> Stamp {
         let of_body = |body: &Body<T, D>| {
             over(0..body.points.len(), |k| {
@@ -264,11 +265,14 @@ impl<T: Real, const D: usize> Scene<T, D> {
                 Stamp::digits(numbers.chain([start.density, start.energy]))
             })
         };
+        let of_wall =
+            |wall: &Wall<D>| over(0..wall.points.len(), |k| Stamp::digits(wall.points[k]));
         Stamp {
-            steps: u64::from(self.is_of_neighbors_alone()),
+            steps: 0,
             time: 0.0,
             particles: self.bodies().map(|body| body.points.len()).sum(),
-            motion: self.bodies().map(of_body).sum(),
+            motion: self.bodies().map(of_body).sum::<u64>()
+                + self.walls.iter().map(of_wall).sum::<u64>(),
         }
     }
 

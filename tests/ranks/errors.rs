@@ -1,7 +1,8 @@
 //! Errors on ranks: what one rank finds ends the call on all of them, and nothing hangs.
 
-use super::scenes::dam_break;
+use super::scenes::{DX, dam_break};
 use super::watched;
+use meshfree::boundary::Wall;
 use meshfree::error::Problem;
 use meshfree::prelude::*;
 use meshfree::ranks::{self, Ranks};
@@ -98,6 +99,17 @@ fn ranks_of_other_scenes_or_calls_are_told() {
             .iter()
             .all(|text| text.contains("rank 2") && text.contains("its time"))
     );
+    // Walls do not travel, so each rank would have its own.
+    let other_wall = on_ranks(|ranks| {
+        let low = if ranks.rank() == 1 { 0.9 + DX } else { 0.9 };
+        let box_wall = Wall::around("box", [low, 0.2], [1.1, 0.3], DX, 1, [[true; 2]; 2]);
+        dam_break()
+            .wall(box_wall)
+            .on_ranks(ranks)
+            .build()
+            .map(|_| ())
+    });
+    assert!(other_wall.iter().all(|text| text.contains("rank 1 has")));
     let other_calls = on_ranks(|ranks| {
         let stops = ranks.rank() == 1;
         let mut simulation = rod(2e-4, 20.0).on_ranks(ranks).build()?;
