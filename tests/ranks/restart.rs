@@ -2,9 +2,10 @@
 
 use super::bits::said;
 use super::flap::raft_with_flap;
-use super::scenes::{crushed_tank, dam_break, periodic_gas, rod_by_runge_kutta};
+use super::scenes::{DX, crushed_tank, dam_break, down, periodic_gas, rod_by_runge_kutta};
 use super::watched;
 use crate::common::folder::Folder;
+use meshfree::boundary::Wall;
 use meshfree::prelude::*;
 use meshfree::ranks;
 use safetensors::SafeTensors;
@@ -109,6 +110,17 @@ fn goes_on_anywhere<T: Real, const D: usize>(
     });
 }
 
+/// Water between walls of particles and a mirror plane: records of images, which all particles give, are in the file.
+fn mirror_beside_walls() -> Scene<f64, 2> {
+    let water = catalogue::weakly_compressible_water(4.0);
+    let open = [[false, true], [true, true]];
+    Scene::new(schemes::weakly_compressible())
+        .body(Body::block("water", water, [0.0; 2], [0.8, 0.4], DX).jitter(0.2, 3))
+        .wall(Wall::around("tank", [0.0; 2], [1.2, 0.6], DX, 4, open))
+        .boundary(MirrorPlane::wall([0.0; 2], [-1.0, 0.0]))
+        .acceleration(down)
+}
+
 /// The same of a run in parts that is read between two steps, and saved then: each rank has its own particles after the last step.
 #[test]
 fn what_is_read_between_steps_goes_on_anywhere() {
@@ -152,6 +164,7 @@ fn what_is_read_between_steps_goes_on_anywhere() {
     watched(|| {
         saved("dam break", dam_break);
         saved("crushed", crushed_tank);
+        saved("mirror beside walls", mirror_beside_walls);
         saved("gas", periodic_gas);
         saved("Runge-Kutta", rod_by_runge_kutta);
     });
