@@ -159,8 +159,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         self.show_images_again();
     }
 
-    /// Begins with the particles of this rank alone, which are those of an even part of the chunks until they are sorted, where each
-    /// rank has some and a step looks at neighbours alone; whether it does.
+    /// Begins with the particles of this rank alone, if a step looks at neighbours alone and each rank has some; whether it does. Until the
+    /// first list build sorts them, the particles of a rank are those of an even part of the chunks.
     pub(crate) fn begin_apart(
         &mut self,
         fill: impl FnOnce(&Self, &[Range<usize>]) -> Columns<T, D>,
@@ -178,7 +178,7 @@ impl<T: Real, const D: usize> Group<T, D> {
 
     /// How chunks are cut where each of so many ranks begins with its own particles.
     pub(crate) fn first_division(&self, ranks: usize) -> Option<Division> {
-        // Lam's ends settle until none of all of them changes.
+        // The densities of ends by Lam, Shen & Gong are repeated until the largest change of all particles is small.
         let is_alone = self.is_of_neighbors_alone() && self.scheme.density != DensityForm::Lam;
         let [chunks, mobile] = [self.particles.columns.slots(), self.particles.mobile]
             .map(|slots| slots.div_ceil(chunk_slots::<T>()));

@@ -126,7 +126,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         }
     }
 
-    /// Has the particles of walls that sorting all of them brings to the slots of this rank: where they are every rank knows.
+    /// Gives the slots of walls on this rank the particles that sorting whole walls brings there. No particle travels: every rank knows
+    /// where all particles of a wall are.
     fn sort_walls(&mut self, grid: &Grid<D>, time: f64) {
         let Some(all) = &self.all else {
             return;

@@ -205,8 +205,8 @@ pub struct RankCost {
     pub lines: Vec<RankCostLine>,
     /// The time of a step \[s\].
     pub step: f64,
-    /// Bytes that a rank holds: the places of all particles as the scene has them, and its own particles, lists and records, or those of all
-    /// where ranks do not step their own alone. A reading takes the columns of all beside it.
+    /// Bytes that a rank holds, without its ghosts: the places of all particles as the scene has them, and the columns, lists and records of
+    /// its own particles, or of all particles where ranks do not step their own alone. A reading adds the columns of all particles.
     pub memory: f64,
 }
 

@@ -115,7 +115,7 @@ impl<T: Real, const D: usize> Group<T, D> {
         file.put(format!("{name}/gravity"), 1, gravity);
         file.put(format!("{name}/evaluated_gravity"), 1, evaluated_gravity);
         file.put_reals(format!("{name}/body_force"), 1, body_force);
-        // What its rank has counted since is none: it was joined with what others have.
+        // Ranks have joined their counts when a call ends.
         let (guards, limited) = match all {
             Some(all) => (&all.guards, &all.limited),
             None => (guards, limited),
