@@ -91,6 +91,7 @@ mod held;
 mod joints;
 mod numerics;
 mod plan;
+mod random;
 mod resample;
 mod sources;
 mod state;
